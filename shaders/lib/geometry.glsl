@@ -1,0 +1,1 @@
+float placeholder() { return 0.0; }
