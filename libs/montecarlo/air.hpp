@@ -1,0 +1,64 @@
+#pragma once
+// The atmosphere at one wavelength as the random paths see it.
+
+#include "montecarlo/phase.hpp"
+#include "montecarlo/profile.hpp"
+#include "physics/medium.hpp"
+
+#include <vector>
+
+namespace sky::montecarlo {
+
+/// Coefficients at one altitude.
+struct Local {
+    double extinction = 0;            ///< 1/m, all species
+    double bright = 0;                ///< sum of scattering coefficient times integral of the phase function, 1/m
+    std::vector<double> scattering;   ///< [scattering species], 1/m
+};
+
+/// Where light of the Sun is likely: the transmittance towards it from the middle of each shell, by the cosine of its
+/// zenith angle. It only guides where collisions are sampled, so its resolution is of no consequence for the mean.
+class Guide
+{
+public:
+    explicit Guide(const Profile& profile);
+    double operator()(int shell, double muSun) const;
+
+private:
+    std::vector<float> transmittance_;
+};
+
+class Air
+{
+public:
+    Air(const physics::Medium& medium, int wavelength);
+
+    const Profile& profile() const { return profile_; }
+    const Guide& guide() const { return guide_; }
+    const PhaseTable& phase(std::size_t species) const { return phases_[species]; }
+    double groundAlbedo() const { return groundAlbedo_; }
+    double sunAngularRadius() const { return sunAngularRadius_; }
+
+    /// Fills `local` for an altitude, straight from the tables.
+    void at(double altitude, Local& local) const;
+    /// Emission coefficient per unit irradiance from one direction: sum of scattering times phase function, 1/(m sr).
+    double scatteredAt(const Local& local, double angle) const;
+    /// Transmittance from a place towards a direction, 0 where the ground is in the way.
+    double transmittance(const Place& place, Vec direction) const;
+
+private:
+    struct Kind {
+        std::vector<double> logDensity, density;
+        double extinction = 0, scattering = 0;   // m^2
+        bool scatters = false;
+    };
+    Profile profile_;
+    Guide guide_;
+    double groundAlbedo_, sunAngularRadius_;
+    std::vector<double> altitudes_;
+    std::vector<std::size_t> guideToInterval_;
+    std::vector<Kind> kinds_;
+    std::vector<PhaseTable> phases_;             // of the kinds that scatter, in their order
+};
+
+} // namespace sky::montecarlo

@@ -1,0 +1,197 @@
+#include "montecarlo/paths.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace sky::montecarlo {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double plainShare = 0.5;         // of events placed by optical depth alone; bounds the guide's weights by 2
+constexpr double rouletteThreshold = 0.25; // of the path's weight at its first counted event
+
+} // namespace
+
+PathTracer::PathTracer(const Air& air, const Scene& scene, Orders orders) : air_(air), scene_(scene), orders_(orders)
+{
+    firstRay_ = rayFrom(air_.profile().planetRadius(), scene_.camera, scene_.view);
+    air_.profile().trace(firstRay_, firstLeg_);
+    // The ground in direct view is a layer of its own: the first event is in the air.
+    prepare(scene_.camera, scene_.view, firstRay_, firstLeg_, 0, firstChoice_);
+}
+
+double PathTracer::batchMean(Random& random, int paths)
+{
+    // Additive recurrence with the powers of the generalised golden ratio g^5 = g + 1 (M. Roberts 2018), shifted at
+    // random: each path is uniform by itself, and the paths of a batch do not cluster.
+    static constexpr Decisions step{0.8566748838545029, 0.7338918566271260, 0.6287067210378087, 0.5385972572236101};
+    Decisions decisions;
+    for (double& u : decisions)
+        u = random.uniform();
+    double sum = 0;
+    for (int i = 0; i < paths; ++i) {
+        sum += path(random, decisions);
+        for (int k = 0; k < spreadDecisions; ++k) {
+            decisions[k] += step[k];
+            decisions[k] -= decisions[k] >= 1 ? 1 : 0;
+        }
+    }
+    return sum / paths;
+}
+
+void PathTracer::prepare(const Place& place, Vec direction, const Ray& ray, const Leg& leg, double groundAlbedo,
+                         Choice& choice) const
+{
+    const double radius = air_.profile().planetRadius();
+    const double upSun = (radius + place.altitude) * dot(place.up, scene_.sun.centre());
+    const double alongSun = dot(direction, scene_.sun.centre());
+    const auto muSunAt = [&](double s) {
+        return (upSun + s * alongSun) / std::sqrt(radius * radius + ray.at(s));
+    };
+    // Here `cumulative` holds the plain chance of each event and `weight` the guide's factor.
+    choice.cumulative.clear();
+    choice.weight.clear();
+    double plain = 0, guided = 0, transmittance = 1;
+    const auto add = [&](double chance, double factor) {
+        choice.cumulative.push_back(chance);
+        choice.weight.push_back(factor);
+        plain += chance;
+        guided += chance * factor;
+    };
+    for (const Segment& segment : leg.segments) {
+        const double muSun = muSunAt(0.5 * (segment.begin + segment.end));
+        add(-transmittance * std::expm1(-segment.opticalDepth), air_.guide()(segment.shell, muSun));
+        transmittance *= std::exp(-segment.opticalDepth);
+    }
+    if (leg.hitsGround && groundAlbedo > 0) {
+        // Sunlight leaves the ground as mu / pi, the air as about 1 / (4 pi).
+        const double muSun = muSunAt(leg.length);
+        add(transmittance * groundAlbedo, 4 * std::max(0.0, muSun) * air_.guide()(0, muSun));
+    }
+    choice.possible = plain > 0;
+    if (!choice.possible)
+        return;
+    const double share = guided > 0 ? plainShare : 1.0;
+    double sum = 0;
+    for (std::size_t i = 0; i < choice.weight.size(); ++i) {
+        const double density = share / plain + (guided > 0 ? (1 - share) * choice.weight[i] / guided : 0);
+        sum += choice.cumulative[i] * density;
+        choice.cumulative[i] = sum;
+        choice.weight[i] = 1 / density;
+    }
+}
+
+bool PathTracer::advance(Place& place, Vec direction, const Ray& ray, const Leg& leg, const Choice& choice, double u,
+                         double& weight) const
+{
+    const double radius = air_.profile().planetRadius();
+    const double target = u * choice.cumulative.back();
+    const auto found = std::upper_bound(choice.cumulative.begin(), choice.cumulative.end() - 1, target);
+    const auto i = static_cast<std::size_t>(found - choice.cumulative.begin());
+    weight *= choice.weight[i];
+    if (i == leg.segments.size()) {
+        place = moved(radius, place, direction, ray, leg.length);
+        place.altitude = 0;
+        return true;
+    }
+    // What is left of u places the event within the segment, by optical depth.
+    const double before = i > 0 ? choice.cumulative[i - 1] : 0;
+    const double rest = std::clamp((target - before) / (choice.cumulative[i] - before), 0.0, 1.0);
+    const Segment& segment = leg.segments[i];
+    const double depth = -std::log1p(rest * std::expm1(-segment.opticalDepth));
+    const double s = air_.profile().distanceAt(ray, segment, std::min(depth, segment.opticalDepth));
+    place = moved(radius, place, direction, ray, s);
+    place.altitude = std::clamp(place.altitude, 0.0, air_.profile().topOfAtmosphere());
+    return false;
+}
+
+double PathTracer::sunlightAtAir(const Place& place, Vec direction, const Local& local, Random& random) const
+{
+    const double u1 = random.uniform(), u2 = random.uniform();
+    const Vec sun = scene_.sun.point(u1, u2);
+    const double t = air_.transmittance(place, sun);
+    return t > 0 ? t * air_.scatteredAt(local, angleBetween(sun, direction)) / local.extinction : 0;
+}
+
+double PathTracer::sunlightAtGround(const Place& place, Random& random) const
+{
+    const double u1 = random.uniform(), u2 = random.uniform();
+    const Vec sun = scene_.sun.point(u1, u2);
+    const double mu = dot(place.up, sun);
+    return mu > 0 ? mu / pi * air_.transmittance(place, sun) : 0;
+}
+
+Vec PathTracer::scattered(Vec direction, const Local& local, double u1, double u2, double& weight) const
+{
+    weight *= local.bright / local.extinction;
+    if (!(local.bright > 0))
+        return direction;
+    // One random number picks the species, what is left of it the angle.
+    double target = u1 * local.bright;
+    std::size_t last = local.scattering.size();
+    double share = 0;
+    for (std::size_t i = 0; i < local.scattering.size(); ++i) {
+        const double next = local.scattering[i] * air_.phase(i).integral();
+        if (next <= 0)
+            continue;
+        if (last < local.scattering.size()) {
+            if (target < share)
+                break;
+            target -= share;
+        }
+        last = i;
+        share = next;
+    }
+    const PhaseTable::Sample sample = air_.phase(last).sample(std::clamp(target / share, 0.0, 1.0));
+    weight *= sample.weight;
+    return turned(direction, std::cos(sample.angle), std::sin(sample.angle), 2 * pi * u2);
+}
+
+double PathTracer::path(Random& random, const Decisions& decisions)
+{
+    if (!firstChoice_.possible)
+        return 0;
+    const double radius = air_.profile().planetRadius();
+    Place place = scene_.camera;
+    Vec direction = scene_.view;
+    double weight = 1, radiance = 0, reference = 0;
+    bool onGround = advance(place, direction, firstRay_, firstLeg_, firstChoice_, decisions[0], weight);
+    for (int order = 1;; ++order) {
+        if (!onGround)
+            air_.at(place.altitude, local_);
+        if (!onGround && !(local_.extinction > 0))
+            return radiance;
+        if (order >= orders_.first)
+            radiance += weight * (onGround ? sunlightAtGround(place, random) : sunlightAtAir(place, direction, local_, random));
+        if (order == orders_.last)
+            return radiance;
+
+        const double u1 = order == 1 ? decisions[1] : random.uniform();
+        const double u2 = order == 1 ? decisions[2] : random.uniform();
+        if (onGround)   // Lambert's law: the sine squared is uniform. The albedo is in the weight already.
+            direction = turned(place.up, std::sqrt(1 - u1), std::sqrt(u1), 2 * pi * u2);
+        else
+            direction = scattered(direction, local_, u1, u2, weight);
+        if (!(weight > 0))
+            return radiance;
+
+        const Ray ray = rayFrom(radius, place, direction);
+        air_.profile().trace(ray, leg_);
+        prepare(place, direction, ray, leg_, air_.groundAlbedo(), choice_);
+        if (!choice_.possible)
+            return radiance;
+        onGround = advance(place, direction, ray, leg_, choice_, order == 1 ? decisions[3] : random.uniform(), weight);
+
+        // Russian roulette once events are being counted.
+        if (order < orders_.first)
+            reference = weight;
+        else if (weight < rouletteThreshold * reference) {
+            if (random.uniform() * rouletteThreshold * reference >= weight)
+                return radiance;
+            weight = rouletteThreshold * reference;
+        }
+    }
+}
+
+} // namespace sky::montecarlo

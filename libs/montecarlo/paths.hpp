@@ -1,0 +1,55 @@
+#pragma once
+// Random paths, followed backwards from the camera.
+
+#include "montecarlo/random.hpp"
+#include "montecarlo/single.hpp"
+
+#include <array>
+#include <vector>
+
+namespace sky::montecarlo {
+
+/// Which events a path counts: those of order `first` .. `last`; last = 0 means all.
+struct Orders {
+    int first = 2;
+    int last = 0;
+};
+
+/// Estimates the radiance that a camera sees from scattered light. Not for use by two threads at once: it keeps scratch
+/// space; the results depend on the random stream alone.
+class PathTracer
+{
+public:
+    PathTracer(const Air& air, const Scene& scene, Orders orders);
+
+    /// Mean of a batch of paths, 1/sr. The first decisions of its paths are spread evenly, from a random start.
+    double batchMean(Random& random, int paths);
+
+private:
+    static constexpr int spreadDecisions = 4;
+    using Decisions = std::array<double, spreadDecisions>;
+
+    /// How the next event of a leg is chosen: one entry per segment, one more for the ground.
+    struct Choice {
+        std::vector<double> cumulative;   // of the probability
+        std::vector<double> weight;       // what an event there stands for
+        bool possible = false;
+    };
+    void prepare(const Place& place, Vec direction, const Ray& ray, const Leg& leg, double groundAlbedo, Choice& choice) const;
+    /// Moves to the next event; returns whether it is on the ground. Multiplies `weight`.
+    bool advance(Place& place, Vec direction, const Ray& ray, const Leg& leg, const Choice& choice, double u, double& weight) const;
+    double path(Random& random, const Decisions& decisions);
+    double sunlightAtAir(const Place& place, Vec direction, const Local& local, Random& random) const;
+    double sunlightAtGround(const Place& place, Random& random) const;
+    Vec scattered(Vec direction, const Local& local, double u1, double u2, double& weight) const;
+
+    const Air& air_;
+    Scene scene_;
+    Orders orders_;
+    Ray firstRay_;
+    Leg firstLeg_, leg_;
+    Choice firstChoice_, choice_;
+    Local local_;
+};
+
+} // namespace sky::montecarlo

@@ -1,0 +1,72 @@
+#include "montecarlo/single.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace sky::montecarlo {
+namespace {
+
+constexpr double halvingTolerance = 2e-5;
+constexpr int maxHalvings = 5;
+
+double integrate(const Air& air, const Scene& scene, const Leg& leg, int halvings)
+{
+    const Profile& profile = air.profile();
+    const double radius = profile.planetRadius();
+    const Ray ray = rayFrom(radius, scene.camera, scene.view);
+    const Rule steps = gaussLegendre(4), across = gaussLegendre(4 + 2 * halvings), along = gaussLegendre(6 + 3 * halvings);
+    Local local;
+    double sum = 0, depthBefore = 0;
+    for (const Segment& segment : leg.segments) {
+        // A step is short against the mean free path and against the turning of the vertical along the ray.
+        const double length = segment.end - segment.begin;
+        const double turns = length / (radius + scene.camera.altitude) / 0.003;
+        const int count = std::clamp(static_cast<int>(std::ceil(std::max(2 * segment.opticalDepth, turns))), 1, 64) << halvings;
+        const double step = length / count;
+        for (int i = 0; i < count; ++i)
+            for (std::size_t k = 0; k < steps.node.size(); ++k) {
+                const double s = segment.begin + step * (i + 0.5 + 0.5 * steps.node[k]);
+                const Place place = moved(radius, scene.camera, scene.view, ray, s);
+                air.at(place.altitude, local);
+                const double depth = depthBefore + profile.partialDepth(ray, segment, s);
+                const double source = scene.sun.average(radius, place, across, along, [&](Vec sun) {
+                    return air.transmittance(place, sun) * air.scatteredAt(local, angleBetween(sun, scene.view));
+                });
+                sum += 0.5 * step * steps.weight[k] * std::exp(-depth) * source;
+            }
+        depthBefore += segment.opticalDepth;
+    }
+    return sum;
+}
+
+} // namespace
+
+Integral singleScattering(const Air& air, const Scene& scene, const Leg& leg)
+{
+    Integral result{integrate(air, scene, leg, 0), 0};
+    for (int halvings = 1; halvings <= maxHalvings; ++halvings) {
+        const double finer = integrate(air, scene, leg, halvings);
+        result = {finer, std::abs(finer - result.value)};
+        if (result.error <= halvingTolerance * finer)
+            break;
+    }
+    return result;
+}
+
+double groundDirect(const Air& air, const Scene& scene, const Leg& leg)
+{
+    if (!leg.hitsGround)
+        return 0;
+    const double radius = air.profile().planetRadius();
+    const Ray ray = rayFrom(radius, scene.camera, scene.view);
+    Place ground = moved(radius, scene.camera, scene.view, ray, leg.length);
+    ground.altitude = 0;
+    const Rule rule = gaussLegendre(24);
+    const double irradiance = scene.sun.average(radius, ground, rule, rule, [&](Vec sun) {
+        return std::max(0.0, dot(ground.up, sun)) * air.transmittance(ground, sun);
+    });
+    return air.groundAlbedo() / std::numbers::pi * std::exp(-leg.opticalDepth) * irradiance;
+}
+
+} // namespace sky::montecarlo

@@ -1,0 +1,29 @@
+#pragma once
+// What needs no random numbers: light scattered once, and the ground in direct view.
+
+#include "montecarlo/air.hpp"
+#include "montecarlo/sun.hpp"
+
+namespace sky::montecarlo {
+
+/// A camera inside the atmosphere, the direction it looks in and the Sun.
+struct Scene {
+    Place camera;
+    Vec view{0, 0, 1};
+    SunDisc sun;
+};
+
+struct Integral {
+    double value = 0;
+    double error = 0;   ///< change when all steps were halved for the last time
+};
+
+/// Radiance of sunlight scattered exactly once in the air, per unit solar irradiance, 1/sr.
+///   error   below 5e-5 relative, or what Integral::error says where the shadow's edge defeats the steps
+Integral singleScattering(const Air& air, const Scene& scene, const Leg& leg);
+
+/// Radiance of the ground in direct view, lit by direct sunlight only, dimmed by the air in between, 1/sr.
+/// 0 if the ray misses the ground.
+double groundDirect(const Air& air, const Scene& scene, const Leg& leg);
+
+} // namespace sky::montecarlo
