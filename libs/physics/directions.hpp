@@ -1,0 +1,31 @@
+#pragma once
+#include "physics/geometry.hpp"
+#include <vector>
+
+namespace sky::physics {
+
+/// How finely the moments are computed. Chosen from the measured front of time against error (docs/accuracy).
+struct MomentSettings {
+    int altitudes = 16;     ///< levels before the medium asks for more
+    int suns = 32;          ///< elevations of the Sun
+    int degree = 4;         ///< of the harmonics
+    int groundDirections = 5; ///< zenith angles from nadir to the horizon
+    int limbDirections = 4;   ///< from the horizon to the horizontal
+    int skyDirections = 8;    ///< from the horizontal to the zenith
+    int azimuths = 6;       ///< over half a turn
+    int directNodes = 48;   ///< along a ray, for the first event: sunlight varies fast near the shadow's edge
+    int nodes = 12;         ///< along a ray, for later events: the scattered field is smoother
+    bool truncatePeaks = true; ///< delta-M scaling
+};
+
+/// Zenith angles at which the field of one level is gathered, with the weights of their quadrature over mu.
+/// Three panels: the radiance jumps at the horizon, and just above it, seen from high up, lies the thin bright limb.
+struct Directions {
+    std::vector<double> mu;
+    std::vector<double> weight;
+    std::vector<bool> hitsGround;
+};
+
+Directions directionsAt(const Planet& planet, double altitude, const MomentSettings& settings);
+
+} // namespace sky::physics

@@ -1,0 +1,72 @@
+#include "physics/harmonics.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace sky::physics {
+
+constexpr double pi = 3.14159265358979323846;
+
+void harmonicFactors(const int degree, const double mu, double* const factors)
+{
+    const double sine = std::sqrt(std::max(0., 1 - mu * mu));
+    double diagonal = std::sqrt(1 / (4 * pi)); // normalised P_mm
+    for (int m = 0; m <= degree; ++m) {
+        if (m > 0)
+            diagonal *= sine * std::sqrt((2 * m + 1) / (2. * m));
+        const double norm = m > 0 ? std::sqrt(2.) : 1.;
+        double previous = 0, current = diagonal;
+        factors[harmonicIndex(m, m)] = norm * current;
+        for (int l = m + 1; l <= degree; ++l) {
+            const double a = std::sqrt((4. * l * l - 1) / (double(l) * l - double(m) * m));
+            const double b = std::sqrt(((l - 1.) * (l - 1.) - double(m) * m) / (4. * (l - 1.) * (l - 1.) - 1));
+            const double next = a * (mu * current - (l - 1 > m ? b : 0.) * previous);
+            previous = current;
+            current = next;
+            factors[harmonicIndex(l, m)] = norm * current;
+        }
+    }
+}
+
+void legendre(const int degree, const double x, double* const values)
+{
+    values[0] = 1;
+    if (degree > 0)
+        values[1] = x;
+    for (int l = 1; l < degree; ++l)
+        values[l + 1] = ((2 * l + 1) * x * values[l] - l * values[l - 1]) / (l + 1);
+}
+
+std::vector<double> phaseMoments(const Medium& medium, const Species& species, const int wavelength, const int degree)
+{
+    std::vector<double> moments(degree + 1), polynomials(degree + 1);
+    const int wavelengths = medium.wavelengthCount();
+    const auto value = [&](size_t k) { return species.phaseFunction[k * wavelengths + wavelength]; };
+    const double offsets[2] = {0.5 - 0.5 / std::sqrt(3.), 0.5 + 0.5 / std::sqrt(3.)};
+    for (size_t k = 0; k + 1 < medium.scatteringAngles.size(); ++k) {
+        const double t0 = medium.scatteringAngles[k], t1 = medium.scatteringAngles[k + 1];
+        const double p0 = value(k), p1 = value(k + 1);
+        for (const double x : offsets) {
+            const double theta = t0 + x * (t1 - t0);
+            const double p = p0 > 0 && p1 > 0 ? p0 * std::pow(p1 / p0, x) : p0 + x * (p1 - p0);
+            legendre(degree, std::cos(theta), polynomials.data());
+            for (int l = 0; l <= degree; ++l)
+                moments[l] += 2 * pi * std::sin(theta) * 0.5 * (t1 - t0) * p * polynomials[l];
+        }
+    }
+    return moments;
+}
+
+void phaseFunctionAt(const Medium& medium, const Species& species, const double theta, double* const values)
+{
+    const auto& angles = medium.scatteringAngles;
+    const int wavelengths = medium.wavelengthCount();
+    const size_t k = std::clamp<size_t>(std::upper_bound(angles.begin(), angles.end(), theta) - angles.begin(), 1,
+                                        angles.size() - 1) - 1;
+    const double x = std::clamp((theta - angles[k]) / (angles[k + 1] - angles[k]), 0., 1.);
+    for (int w = 0; w < wavelengths; ++w) {
+        const double p0 = species.phaseFunction[k * wavelengths + w], p1 = species.phaseFunction[(k + 1) * wavelengths + w];
+        values[w] = p0 > 0 && p1 > 0 ? p0 * std::pow(p1 / p0, x) : p0 + x * (p1 - p0);
+    }
+}
+
+} // namespace sky::physics

@@ -1,0 +1,202 @@
+#include "physics/moments.hpp"
+#include "physics/harmonics.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace sky::physics {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+/// Optical depth between two levels of the grid above which another level is put between them.
+constexpr double levelOpticalDepth = 0.5;
+
+double measureOf(const Planet& p, double altitude) { return std::sqrt(std::max(0., radiusExcessSquared(p, altitude))); }
+
+double altitudeOf(const Planet& p, double measure)
+{
+    const double q = measure * measure;
+    return q / (std::sqrt(p.radius * p.radius + q) + p.radius);
+}
+
+} // namespace
+
+MomentGrid::MomentGrid(const Profile& profile, const std::vector<double>& largestExtinction, const int altitudeCount,
+                       const int sunCount)
+    : planet_(profile.planet()), sunCount_(sunCount)
+{
+    const double top = planet_.topOfAtmosphere, whole = measureOf(planet_, top);
+    std::vector<double> levels;
+    for (int i = 0; i < altitudeCount; ++i)
+        levels.push_back(i + 1 == altitudeCount ? top : altitudeOf(planet_, whole * i / (altitudeCount - 1)));
+
+    // Optical depth from the ground up, at the shells of the profile, and levels at the feet of jumps.
+    const auto& shells = profile.shells();
+    const int species = profile.speciesCount();
+    std::vector<double> depth(shells.size(), 0.), n(species);
+    const auto extinctionAt = [&](int interval, double altitude) {
+        profile.densities(interval, altitude, n.data());
+        double beta = 0;
+        for (int s = 0; s < species; ++s)
+            beta += n[s] * largestExtinction[s];
+        return beta;
+    };
+    for (size_t k = 0; k + 1 < shells.size(); ++k) {
+        const double thickness = shells[k + 1] - shells[k];
+        double mean = 0;
+        for (int q = 0; q < 8; ++q)
+            mean += extinctionAt(static_cast<int>(k), shells[k] + thickness * (q + 0.5) / 8) / 8;
+        depth[k + 1] = depth[k] + mean * thickness;
+    }
+    const auto depthAt = [&](double altitude) {
+        const int k = profile.intervalAt(altitude);
+        const double x = (altitude - shells[k]) / (shells[k + 1] - shells[k]);
+        return depth[k] + x * (depth[k + 1] - depth[k]);
+    };
+    for (size_t k = 1; k + 1 < shells.size(); ++k) {
+        const double below = extinctionAt(static_cast<int>(k) - 1, shells[k]), above = extinctionAt(static_cast<int>(k), shells[k]);
+        const bool steep = shells[k + 1] - shells[k] < 1e-5 * top &&
+                           std::abs(extinctionAt(static_cast<int>(k), shells[k + 1]) - above) * top > 0.02;
+        if (steep || std::abs(above - below) * top > 0.02 * std::max(1., depth.back()))
+            levels.push_back(0.5 * (shells[k] + shells[k + 1]) - (steep ? 0 : 0.5 * (shells[k + 1] - shells[k])));
+    }
+    std::sort(levels.begin(), levels.end());
+    altitudes_.push_back(0);
+    for (const double level : levels) {
+        const double last = altitudes_.back();
+        if (level - last < 1e-6 * top)
+            continue;
+        const int extra = std::min(63, static_cast<int>((depthAt(level) - depthAt(last)) / levelOpticalDepth));
+        for (int i = 1; i <= extra; ++i)
+            altitudes_.push_back(last + (level - last) * i / (extra + 1));
+        altitudes_.push_back(level);
+    }
+    altitudes_.back() = top;
+
+    // Where the air above a millionth of the column ends, three horizon dips below the horizontal is night everywhere.
+    double effectiveTop = top;
+    for (size_t k = 0; k < shells.size(); ++k)
+        if (depth.back() - depth[k] <= 1e-5 * depth.back()) {
+            effectiveTop = std::max(shells[k], 1e-3 * top);
+            break;
+        }
+    lowest_ = std::max(-pi / 2, 3.2 * horizonElevation(planet_, effectiveTop) - 0.02);
+    *this = MomentGrid(planet_, altitudes_, lowest_, sunCount_);
+}
+
+MomentGrid::MomentGrid(const Planet planet, std::vector<double> altitudes, const double lowestElevation, const int sunCount)
+    : planet_(planet), altitudes_(std::move(altitudes)), lowest_(lowestElevation), sunCount_(sunCount)
+{
+    for (const double h : altitudes_)
+        measure_.push_back(measureOf(planet_, h));
+    vLowest_ = std::asinh(lowest_ / (pi / 2) * std::sinh(sinhScale)) / sinhScale;
+}
+
+double MomentGrid::sunElevation(const double position) const
+{
+    const double v = vLowest_ + (1 - vLowest_) * position / (sunCount_ - 1);
+    return std::min(pi / 2, pi / 2 * std::sinh(sinhScale * v) / std::sinh(sinhScale));
+}
+
+double MomentGrid::sunPosition(const double elevation) const
+{
+    const double v = std::asinh(elevation / (pi / 2) * std::sinh(sinhScale)) / sinhScale;
+    return std::clamp((v - vLowest_) / (1 - vLowest_) * (sunCount_ - 1), 0., sunCount_ - 1.);
+}
+
+Stencil MomentGrid::altitudeStencil(const double altitude) const
+{
+    const int n = altitudeCount();
+    const double x = measureOf(planet_, altitude);
+    const int k = std::clamp(static_cast<int>(std::upper_bound(measure_.begin(), measure_.end(), x) - measure_.begin()) - 1, 0,
+                             n - 2);
+    const double gap = measure_[k + 1] - measure_[k], t = std::clamp((x - measure_[k]) / gap, 0., 1.);
+    // Hermite basis; the slope at a level is that of the parabola through it and its neighbours, one-sided at the ends.
+    const double h10 = t * (1 - t) * (1 - t) * gap, h11 = -t * t * (1 - t) * gap, h01 = t * t * (3 - 2 * t);
+    Stencil stencil{{std::max(k - 1, 0), k, k + 1, std::min(k + 2, n - 1)}, {0, 1 - h01, h01, 0}};
+    if (k > 0) {
+        const double before = measure_[k] - measure_[k - 1], sum = before + gap;
+        stencil.weight[0] += h10 * -gap / (before * sum);
+        stencil.weight[1] += h10 * (gap - before) / (before * gap);
+        stencil.weight[2] += h10 * before / (gap * sum);
+    } else {
+        stencil.weight[1] -= h10 / gap;
+        stencil.weight[2] += h10 / gap;
+    }
+    if (k + 2 < n) {
+        const double after = measure_[k + 2] - measure_[k + 1], sum = gap + after;
+        stencil.weight[1] += h11 * -after / (gap * sum);
+        stencil.weight[2] += h11 * (after - gap) / (gap * after);
+        stencil.weight[3] += h11 * gap / (after * sum);
+    } else {
+        stencil.weight[1] -= h11 / gap;
+        stencil.weight[2] += h11 / gap;
+    }
+    return stencil;
+}
+
+Stencil MomentGrid::sunStencil(const double position) const
+{
+    const int n = sunCount_, k = std::clamp(static_cast<int>(position), 0, n - 2);
+    const double t = std::clamp(position - k, 0., 1.);
+    Stencil s{{std::max(k - 1, 0), k, k + 1, std::min(k + 2, n - 1)},
+              {t * (-0.5 + t * (1 - 0.5 * t)), 1 + t * t * (-2.5 + 1.5 * t), t * (0.5 + t * (2 - 1.5 * t)), t * t * (-0.5 + 0.5 * t)}};
+    // Beyond the ends the curve goes on straight.
+    if (k == 0) {
+        s.weight[1] += 2 * s.weight[0];
+        s.weight[2] -= s.weight[0];
+        s.weight[0] = 0;
+    }
+    if (k + 2 >= n) {
+        s.weight[2] += 2 * s.weight[3];
+        s.weight[1] -= s.weight[3];
+        s.weight[3] = 0;
+    }
+    return s;
+}
+
+const double* Moments::at(const int altitude, const int sun) const
+{
+    return &values[size_t(altitude * grid.sunCount() + sun) * harmonicCount(degree) * wavelengths];
+}
+
+double* Moments::at(const int altitude, const int sun)
+{
+    return &values[size_t(altitude * grid.sunCount() + sun) * harmonicCount(degree) * wavelengths];
+}
+
+void Moments::interpolate(const double altitude, const double muSun, double* const result) const
+{
+    const Stencil a = grid.altitudeStencil(altitude);
+    const Stencil b = grid.sunStencil(grid.sunPosition(std::asin(std::clamp(muSun, -1., 1.))));
+    const int count = harmonicCount(degree) * wavelengths;
+    std::fill(result, result + count, 0.);
+    for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 4; ++j) {
+            const double weight = a.weight[i] * b.weight[j];
+            if (weight == 0)
+                continue;
+            const double* source = at(a.index[i], b.index[j]);
+            for (int k = 0; k < count; ++k)
+                result[k] += weight * source[k];
+        }
+    for (int w = 0; w < wavelengths; ++w)
+        result[w] = std::exp(result[w]);
+    for (int lm = 1; lm < harmonicCount(degree); ++lm)
+        for (int w = 0; w < wavelengths; ++w)
+            result[lm * wavelengths + w] *= result[w];
+}
+
+void Moments::interpolateGround(const double muSun, double* const result) const
+{
+    const Stencil b = grid.sunStencil(grid.sunPosition(std::asin(std::clamp(muSun, -1., 1.))));
+    for (int w = 0; w < wavelengths; ++w) {
+        double logarithm = 0;
+        for (int j = 0; j < 4; ++j)
+            logarithm += b.weight[j] * std::log(std::max(groundIrradiance[b.index[j] * wavelengths + w], darkness));
+        result[w] = std::exp(logarithm);
+    }
+}
+
+} // namespace sky::physics

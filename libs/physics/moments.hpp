@@ -1,0 +1,76 @@
+#pragma once
+#include "physics/geometry.hpp"
+#include "physics/profile.hpp"
+#include <array>
+#include <vector>
+
+namespace sky::physics {
+
+/// Four neighbours and their weights on one axis of a table: what an interpolation is, once the place is known.
+struct Stencil {
+    std::array<int, 4> index;
+    std::array<double, 4> weight;
+};
+
+/// Grid of the radiance moments: altitude x elevation of the Sun.
+///
+/// The elevation axis is e = (pi/2) sinh(a v) / sinh(a), a = 3, v uniform: fine in twilight. It begins below the Sun
+/// that lights any air.
+class MomentGrid
+{
+public:
+    MomentGrid() = default;
+    /// Grid that follows the medium: `altitudeCount` levels evenly spread in sqrt(r^2 - R^2), and more wherever a density
+    /// jumps or the vertical optical depth between two levels exceeds a bound.
+    ///   extinction  [altitude interval of the profile] is asked through the largest cross sections, [species], m^2
+    MomentGrid(const Profile& profile, const std::vector<double>& largestExtinction, int altitudeCount, int sunCount);
+    /// Grid as it was stored.
+    MomentGrid(Planet planet, std::vector<double> altitudes, double lowestElevation, int sunCount);
+
+    const std::vector<double>& altitudes() const { return altitudes_; }
+    int altitudeCount() const { return static_cast<int>(altitudes_.size()); }
+    int sunCount() const { return sunCount_; }
+    double lowestElevation() const { return lowest_; }
+    /// Elevation of the Sun at position v in 0..sunCount-1, rad.
+    double sunElevation(double position) const;
+    /// Position 0..sunCount-1 of a Sun's elevation, clamped to the grid.
+    double sunPosition(double elevation) const;
+    static constexpr double sinhScale = 3;
+
+    /// Cubic Hermite with slopes of parabolas through three levels, in the measure sqrt(r^2 - R^2).
+    Stencil altitudeStencil(double altitude) const;
+    /// Catmull-Rom on the uniform axis v.
+    Stencil sunStencil(double position) const;
+
+private:
+    Planet planet_;
+    std::vector<double> altitudes_;
+    std::vector<double> measure_;
+    double lowest_ = 0;
+    double vLowest_ = 0;
+    int sunCount_ = 0;
+};
+
+/// Moments I_lm(h, muSun) = integral of L Y_lm over the sphere, per unit solar irradiance (sr^-1 sr = 1), of the radiance
+/// that has had at least one event; with the irradiance of the ground that goes with it.
+///
+/// Stored as ln I_00 and the ratios I_lm / I_00: these interpolate well through the six decades of twilight.
+struct Moments {
+    MomentGrid grid;
+    int degree = 0;
+    int wavelengths = 0;
+    std::vector<double> values;           ///< [altitude][sun][lm][wavelength]; lm = 0: ln I_00, others: I_lm / I_00
+    std::vector<double> groundIrradiance; ///< [sun][wavelength], diffuse, per unit solar irradiance
+
+    const double* at(int altitude, int sun) const;
+    double* at(int altitude, int sun);
+    /// Moments at a place, [lm][wavelength], as I_lm.
+    void interpolate(double altitude, double muSun, double* result) const;
+    /// Diffuse irradiance of the ground, [wavelength].
+    void interpolateGround(double muSun, double* result) const;
+};
+
+/// Smallest I_00 that is told from darkness.
+constexpr double darkness = 1e-30;
+
+} // namespace sky::physics

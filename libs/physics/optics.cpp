@@ -1,0 +1,50 @@
+#include "physics/optics.hpp"
+#include "physics/harmonics.hpp"
+#include <algorithm>
+
+namespace sky::physics {
+
+Optics makeOptics(const Medium& medium, const int degree, const bool truncate)
+{
+    const int wavelengths = medium.wavelengthCount();
+    Optics optics;
+    optics.degree = degree;
+    optics.species = static_cast<int>(medium.species.size());
+    optics.wavelengths = wavelengths;
+    optics.extinction.resize(optics.species * wavelengths);
+    optics.scattering.resize(optics.species * wavelengths);
+    optics.truncation.resize(optics.species * wavelengths);
+    optics.moments.resize(optics.species * (degree + 1) * wavelengths);
+    for (int s = 0; s < optics.species; ++s) {
+        const auto& species = medium.species[s];
+        bool scatters = false;
+        std::vector<double> moments;
+        for (int w = 0; w < wavelengths; ++w) {
+            const double sigma = species.extinctionCrossSection[w];
+            const double sigmaScattering = species.scatters() ? sigma * species.singleScatteringAlbedo[w] : 0;
+            if (sigmaScattering > 0) {
+                scatters = true;
+                if (w == 0 || !species.achromatic || moments.empty())
+                    moments = phaseMoments(medium, species, w, degree + 1);
+            } else {
+                moments.assign(degree + 2, 0);
+            }
+            // The peak must not be truncated below what a positive phase function needs, nor where it is negligible.
+            const double share = std::clamp(moments[degree + 1], 0., 0.999);
+            const double f = truncate && share > 1e-3 ? share : 0;
+            optics.truncation[s * wavelengths + w] = f;
+            optics.extinction[s * wavelengths + w] = sigma - f * sigmaScattering;
+            optics.scattering[s * wavelengths + w] = (1 - f) * sigmaScattering;
+            for (int l = 0; l <= degree; ++l)
+                optics.moments[(s * (degree + 1) + l) * wavelengths + w] =
+                    sigmaScattering > 0 ? (moments[l] - f) / (1 - f) : 0;
+            if (!(sigmaScattering > 0))
+                moments.clear();
+        }
+        if (scatters)
+            optics.scatterers.push_back(s);
+    }
+    return optics;
+}
+
+} // namespace sky::physics

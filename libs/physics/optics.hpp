@@ -1,0 +1,28 @@
+#pragma once
+#include "physics/medium.hpp"
+#include <vector>
+
+namespace sky::physics {
+
+/// What radiative transfer needs of each species at each wavelength, with sharp forward peaks truncated (delta-M scaling).
+///
+/// With f the truncated share of the phase function, extinction and scattering cross sections lose f sigma_sca and the
+/// Legendre moments become (lambda_l - f) / (1 - f). source: Wiscombe 1977, J. Atmos. Sci. 34, 1408.
+struct Optics {
+    int degree = 0;
+    int species = 0;
+    int wavelengths = 0;
+    std::vector<double> extinction; ///< [species][wavelengths], m^2, scaled
+    std::vector<double> scattering; ///< [species][wavelengths], m^2, scaled
+    std::vector<double> truncation; ///< [species][wavelengths], f, 0..1
+    std::vector<double> moments;    ///< [species][0..degree][wavelengths], lambda_l, scaled
+    std::vector<int> scatterers;    ///< indices of the species that scatter at some wavelength
+
+    double moment(int s, int l, int w) const { return moments[(s * (degree + 1) + l) * wavelengths + w]; }
+};
+
+/// Optics of `medium` for harmonics up to `degree`.
+///   truncate  scale where f = lambda_{degree+1} is worth it (f > 1e-3); false: plain truncation of the series
+Optics makeOptics(const Medium& medium, int degree, bool truncate);
+
+} // namespace sky::physics

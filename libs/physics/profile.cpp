@@ -1,0 +1,88 @@
+#include "physics/profile.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace sky::physics {
+
+namespace {
+
+double interpolate(double n0, double n1, double x) { return n0 > 0 && n1 > 0 ? n0 * std::pow(n1 / n0, x) : n0 + x * (n1 - n0); }
+
+/// Densities below this share of a species' greatest column are followed only loosely.
+constexpr double negligibleShare = 1e-7;
+
+bool chordFits(const Medium& medium, const std::vector<double>& negligible, size_t a, size_t b, double tolerance)
+{
+    const auto& h = medium.altitudes;
+    // A chord must not bridge a jump's foot: equality at every node in between is enough.
+    for (size_t s = 0; s < medium.species.size(); ++s) {
+        const auto& n = medium.species[s].numberDensity;
+        for (size_t k = a + 1; k < b; ++k) {
+            const double fit = interpolate(n[a], n[b], (h[k] - h[a]) / (h[b] - h[a]));
+            if (std::abs(fit - n[k]) > tolerance * n[k] + negligible[s])
+                return false;
+        }
+    }
+    return true;
+}
+
+} // namespace
+
+Profile::Profile(const Medium& medium, const double tolerance)
+    : planet_{medium.planetRadius, medium.topOfAtmosphere}, species_(static_cast<int>(medium.species.size()))
+{
+    const auto& h = medium.altitudes;
+    std::vector<double> negligible(species_);
+    for (int s = 0; s < species_; ++s) {
+        const auto& n = medium.species[s].numberDensity;
+        double column = 0;
+        for (size_t k = 0; k + 1 < h.size(); ++k)
+            column += 0.5 * (n[k] + n[k + 1]) * (h[k + 1] - h[k]);
+        negligible[s] = negligibleShare * column / planet_.topOfAtmosphere;
+    }
+
+    shells_.push_back(h.front());
+    for (size_t a = 0; a + 1 < h.size();) {
+        // Longest chord by doubling, then bisection.
+        size_t good = a + 1, step = 1, bad = h.size();
+        while (good + step < h.size() && chordFits(medium, negligible, a, good + step, tolerance)) {
+            good += step;
+            step *= 2;
+        }
+        bad = std::min(good + step, h.size());
+        while (bad - good > 1) {
+            const size_t middle = (good + bad) / 2;
+            (middle < h.size() && chordFits(medium, negligible, a, middle, tolerance) ? good : bad) = middle;
+        }
+        double steepness = 0;
+        for (int s = 0; s < species_; ++s) {
+            const auto& n = medium.species[s].numberDensity;
+            const bool logarithmic = n[a] > 0 && n[good] > 0;
+            const double slope = (logarithmic ? std::log(n[good] / n[a]) : n[good] - n[a]) / (h[good] - h[a]);
+            segments_.push_back({logarithmic ? std::log(n[a]) : n[a], slope, logarithmic});
+            if (std::max(n[a], n[good]) > 100 * negligible[s])
+                steepness = std::max(steepness, logarithmic ? std::abs(slope) : 1 / (h[good] - h[a]));
+        }
+        steepness_.push_back(steepness);
+        shells_.push_back(h[good]);
+        a = good;
+    }
+}
+
+int Profile::intervalAt(const double altitude) const
+{
+    const auto above = std::upper_bound(shells_.begin(), shells_.end(), altitude) - shells_.begin();
+    return static_cast<int>(std::clamp<std::ptrdiff_t>(above, 1, static_cast<std::ptrdiff_t>(shells_.size()) - 1)) - 1;
+}
+
+void Profile::densities(const int interval, const double altitude, double* const values) const
+{
+    const double dh = altitude - shells_[interval];
+    for (int s = 0; s < species_; ++s) {
+        const auto& segment = segments_[interval * species_ + s];
+        const double x = segment.start + segment.slope * dh;
+        values[s] = segment.logarithmic ? std::exp(x) : std::max(0., x);
+    }
+}
+
+} // namespace sky::physics

@@ -1,0 +1,196 @@
+#include "physics/ray.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace sky::physics {
+
+namespace {
+
+/// Altitude in a measure in which gentle profiles and limb geometry are spread evenly: sqrt(r^2 - R^2).
+double spread(const Planet& planet, double altitude) { return std::sqrt(std::max(0., radiusExcessSquared(planet, altitude))); }
+
+} // namespace
+
+RayTracer::RayTracer(const Profile& profile, const Optics& optics, const double cellScale)
+    : profile_(profile), optics_(optics), cellScale_(cellScale)
+{
+    for (int s = 0; s < optics.species; ++s) {
+        const auto begin = optics.extinction.begin() + s * optics.wavelengths;
+        maxExtinction_.push_back(*std::max_element(begin, begin + optics.wavelengths));
+    }
+}
+
+void RayTracer::walk(const double h, const double mu, const bool hitsGround)
+{
+    const auto& p = profile_.planet();
+    const auto& shells = profile_.shells();
+    const double r = p.radius + h;
+    const double length = hitsGround ? distanceToGround(p, h, mu) : distanceToTop(p, h, mu);
+    const int species = profile_.speciesCount();
+    bounds_.assign(1, 0);
+    altitudes_.assign(1, h);
+    columns_.clear();
+    if (!(length > 0))
+        return;
+
+    std::vector<double> n(species), m(species);
+    int k = profile_.intervalAt(h);
+    bool down = mu < 0;
+    if (down && h <= shells[k] && k > 0)
+        --k;
+    double s0 = 0;
+    const double perigee = -r * mu;
+    while (s0 < length) {
+        double s1;
+        int next = k;
+        bool turn = false;
+        if (down) {
+            const double crossing = distanceToShell(p, h, mu, shells[k], true);
+            if (crossing >= 0 && (hitsGround || crossing < perigee)) {
+                s1 = crossing;
+                next = k - 1;
+            } else {
+                s1 = perigee;
+                turn = true;
+            }
+            if (hitsGround && k == 0)
+                s1 = length;
+        } else {
+            s1 = distanceToShell(p, h, mu, shells[k + 1], false);
+            next = k + 1;
+            if (k + 2 >= static_cast<int>(shells.size()))
+                s1 = length;
+        }
+        s1 = std::clamp(s1, s0, length);
+        if (s1 > s0) {
+            const double h0 = altitudeAlong(p, h, mu, s0), h1 = altitudeAlong(p, h, mu, s1);
+            profile_.densities(k, 0.5 * (h0 + h1), n.data());
+            double depth = 0;
+            for (int s = 0; s < species; ++s)
+                depth += n[s] * maxExtinction_[s];
+            depth *= s1 - s0;
+            // Fine enough for density, for the angle turned, and for the first optical depths inside a thick layer.
+            const double bySteepness = profile_.steepness(k) * std::abs(h1 - h0) / (0.5 * cellScale_);
+            const double byLength = (s1 - s0) / (length * 0.05 * cellScale_);
+            const double byDepth = std::min(depth / (0.5 * cellScale_), 64.);
+            const int cells = std::clamp(static_cast<int>(std::ceil(std::max({bySteepness, byLength, byDepth}))), 1, 256);
+            for (int c = 0; c < cells; ++c) {
+                const double a = s0 + (s1 - s0) * c / cells, b = c + 1 == cells ? s1 : s0 + (s1 - s0) * (c + 1) / cells;
+                const double offset = 0.5 * (b - a) / std::sqrt(3.), middle = 0.5 * (a + b);
+                profile_.densities(k, altitudeAlong(p, h, mu, middle - offset), n.data());
+                profile_.densities(k, altitudeAlong(p, h, mu, middle + offset), m.data());
+                for (int s = 0; s < species; ++s)
+                    columns_.push_back(0.5 * (b - a) * (n[s] + m[s]));
+                bounds_.push_back(b);
+                altitudes_.push_back(altitudeAlong(p, h, mu, b));
+            }
+        }
+        s0 = s1;
+        if (turn)
+            down = false;
+        else
+            k = next;
+        if (k < 0 || k + 1 >= static_cast<int>(shells.size()))
+            break;
+    }
+}
+
+void RayTracer::columns(const double altitude, const double mu, double* const result)
+{
+    walk(altitude, mu, false);
+    const int species = profile_.speciesCount();
+    std::fill(result, result + species, 0.);
+    for (size_t i = 0; i < columns_.size(); ++i)
+        result[i % species] += columns_[i];
+}
+
+RayNodes RayTracer::trace(const double altitude, const double mu, const int count, const bool hits)
+{
+    walk(altitude, mu, hits);
+    const auto& p = profile_.planet();
+    const double r = p.radius + altitude;
+    const int wavelengths = optics_.wavelengths, species = optics_.species;
+    const int scatterers = static_cast<int>(optics_.scatterers.size());
+    const int cells = static_cast<int>(bounds_.size()) - 1;
+    const double length = bounds_.back();
+
+    // What each cell contributes: sum over species of sigma_sca N T (1 - exp(-tau)) / tau, the exact mean over the cell.
+    std::vector<double> depth(wavelengths, 0.), seen(cells * wavelengths), measure(cells + 1, 0.);
+    std::vector<double> share(cells, 0.);
+    double total = 0, turned = 0;
+    std::vector<double> transmittance(wavelengths, 1.);
+    for (int c = 0; c < cells; ++c) {
+        const double* column = &columns_[c * species];
+        double* mean = &seen[c * wavelengths];
+        std::vector<double>& tau = depth;
+        std::fill(tau.begin(), tau.end(), 0.);
+        for (int s = 0; s < species; ++s)
+            for (int w = 0; w < wavelengths; ++w)
+                tau[w] += column[s] * optics_.extinction[s * wavelengths + w];
+        double scattered = 0;
+        for (int w = 0; w < wavelengths; ++w) {
+            const double lost = -std::expm1(-tau[w]);
+            mean[w] = transmittance[w] * (tau[w] > 1e-9 ? lost / tau[w] : 1 - 0.5 * tau[w]);
+            transmittance[w] *= 1 - lost;
+        }
+        for (const int s : optics_.scatterers)
+            for (int w = 0; w < wavelengths; ++w)
+                scattered += column[s] * optics_.scattering[s * wavelengths + w] * mean[w];
+        share[c] = scattered;
+        total += scattered;
+        turned += std::abs(spread(p, altitudes_[c + 1]) - spread(p, altitudes_[c]));
+    }
+
+    // Nodes at equal steps of a mixed measure: where the light comes from, altitude, and length.
+    for (int c = 0; c < cells; ++c) {
+        const double light = total > 0 ? share[c] / total : 0;
+        const double climb = turned > 0 ? std::abs(spread(p, altitudes_[c + 1]) - spread(p, altitudes_[c])) / turned : 0;
+        const double way = (bounds_[c + 1] - bounds_[c]) / length;
+        measure[c + 1] = measure[c] + 0.3 * light + 0.2 * climb + 0.5 * way;
+    }
+    std::vector<double> position(count, 0.);
+    for (int k = 1, c = 0; k < count && cells > 0; ++k) {
+        const double target = measure[cells] * k / (count - 1);
+        while (c + 1 < cells && measure[c + 1] < target)
+            ++c;
+        const double x = measure[c + 1] > measure[c] ? (target - measure[c]) / (measure[c + 1] - measure[c]) : 0.5;
+        position[k] = std::min(length, bounds_[c] + std::clamp(x, 0., 1.) * (bounds_[c + 1] - bounds_[c]));
+    }
+    position[count - 1] = length;
+
+    const auto nodeAt = [&](double s) {
+        const double h = altitudeAlong(p, altitude, mu, s), rNode = p.radius + h;
+        return RayNodes::Node{h, r / rNode, s / rNode, std::clamp((r * mu + s) / rNode, -1., 1.)};
+    };
+    RayNodes result;
+    result.nodes.reserve(count);
+    for (const double s : position)
+        result.nodes.push_back(nodeAt(s));
+    result.weights.assign(count * scatterers * wavelengths, 0.);
+    for (int c = 0, k = 0; c < cells; ++c) {
+        const double middle = 0.5 * (bounds_[c] + bounds_[c + 1]);
+        while (k + 2 < count && position[k + 1] < middle)
+            ++k;
+        const double gap = position[k + 1] - position[k];
+        const double x = gap > 0 ? std::clamp((middle - position[k]) / gap, 0., 1.) : 0.;
+        for (int i = 0; i < scatterers; ++i) {
+            const int s = optics_.scatterers[i];
+            const double column = columns_[c * species + s];
+            double* near = &result.weights[(k * scatterers + i) * wavelengths];
+            double* far = &result.weights[((k + 1) * scatterers + i) * wavelengths];
+            for (int w = 0; w < wavelengths; ++w) {
+                const double weight = column * optics_.scattering[s * wavelengths + w] * seen[c * wavelengths + w];
+                near[w] += (1 - x) * weight;
+                far[w] += x * weight;
+            }
+        }
+    }
+    result.hitsGround = hits;
+    result.ground = nodeAt(length);
+    result.groundTransmittance.assign(wavelengths, 0.);
+    if (hits)
+        result.groundTransmittance = transmittance;
+    return result;
+}
+
+} // namespace sky::physics

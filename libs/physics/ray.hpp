@@ -1,0 +1,57 @@
+#pragma once
+#include "physics/optics.hpp"
+#include "physics/profile.hpp"
+#include <vector>
+
+namespace sky::physics {
+
+/// Where along a ray the radiation field is sampled, and with what weight: a product integration.
+///
+/// The field (sunlight, moments) is smooth along the ray; density and transmittance need not be. So the field is taken as
+/// piecewise linear between few nodes, while the weights integrate density times transmittance times the hat function of
+/// each node over many fine cells that end at the shells of the medium:
+///     L = sum_k sum_i w_ki field_i(node k),   w_ki = integral beta_sca,i(s) T(s) hat_k(s) ds
+/// A thin cloud or a steep foot of a profile therefore costs cells (here, in double), not nodes (on the GPU).
+struct RayNodes {
+    struct Node {
+        double altitude; ///< m
+        double sunScale; ///< r / r_k: muSun_k = sunScale muSun + nuScale nu
+        double nuScale;  ///< s_k / r_k
+        double mu;       ///< cosine of the ray's zenith angle at the node
+    };
+    std::vector<Node> nodes;
+    std::vector<double> weights;             ///< [node][scatterer][wavelength], dimensionless: scattering optical depth seen
+    bool hitsGround = false;
+    Node ground{};                           ///< where the ray meets the ground, if it does
+    std::vector<double> groundTransmittance; ///< [wavelength], 0 if the ray misses the ground
+};
+
+/// Follows rays through a profile. Keeps scratch memory: one tracer a thread.
+class RayTracer
+{
+public:
+    /// \param cellScale fine cells: relative size, 1 is accurate to about 1e-5; larger is coarser and cheaper
+    RayTracer(const Profile& profile, const Optics& optics, double cellScale = 1);
+
+    /// Nodes and weights of the ray from `altitude` (0..top, m) in direction `mu`.
+    ///   count       nodes, >= 2
+    ///   hitsGround  whether the ray counts as hitting the ground: decided by the caller's half of a table, not by rounding
+    RayNodes trace(double altitude, double mu, int count, bool hitsGround);
+
+    /// Column of each species from `altitude` to space, [species], m^-2; the ray must miss the ground.
+    void columns(double altitude, double mu, double* result);
+
+private:
+    void walk(double altitude, double mu, bool hitsGround);
+
+    const Profile& profile_;
+    const Optics& optics_;
+    double cellScale_;
+    std::vector<double> bounds_;   // [cells + 1], distances
+    std::vector<double> columns_;  // [cells][species]
+    std::vector<double> altitudes_; // [cells + 1]
+    std::vector<double> maxExtinction_; // [species]
+    std::vector<double> meanScattering_;
+};
+
+} // namespace sky::physics

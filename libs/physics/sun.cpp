@@ -1,0 +1,136 @@
+#include "physics/sun.hpp"
+#include "physics/quadrature.hpp"
+#include "physics/ray.hpp"
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+namespace sky::physics {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+/// Levels for a table over altitude: evenly spread for a gentle atmosphere, and both sides of every jump of the profile.
+std::vector<double> tableAltitudes(const Profile& profile, int count)
+{
+    const auto& p = profile.planet();
+    const double top = p.topOfAtmosphere, q = radiusExcessSquared(p, top), narrow = 1e-5 * top;
+    std::vector<double> all{0, top};
+    for (int i = 1; i + 1 < count; ++i) {
+        const double x = double(i) / (count - 1);
+        const double square = q * x * x;
+        all.push_back(square / (std::sqrt(p.radius * p.radius + square) + p.radius));
+    }
+    const auto& shells = profile.shells();
+    for (size_t k = 0; k + 1 < shells.size(); ++k)
+        if (shells[k + 1] - shells[k] < narrow) {
+            all.push_back(shells[k]);
+            all.push_back(shells[k + 1]);
+        }
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return all;
+}
+
+} // namespace
+
+SunTable::SunTable(const Profile& profile, const Optics& optics, const double sunAngularRadius, const int altitudeCount,
+                   const int elevations, const int threadCount)
+    : planet_(profile.planet()), sunRadius_(sunAngularRadius), elevations_(elevations), wavelengths_(optics.wavelengths),
+      altitudes_(tableAltitudes(profile, altitudeCount)), depth_(altitudes_.size() * elevations * optics.wavelengths)
+{
+    const auto disc = gaussLegendre(6);
+    const auto fillRow = [&](size_t row, RayTracer& tracer) {
+        std::vector<double> columns(optics.species);
+        const double h = altitudes_[row], horizon = horizonElevation(planet_, h);
+        const double range = pi / 2 - horizon + sunRadius_;
+        for (int k = 0; k < elevations_; ++k) {
+            const double x = elevationScale * std::sinh(std::asinh(range / elevationScale) * k / (elevations_ - 1));
+            const double above = x - sunRadius_; // of the Sun's centre above the horizon
+            double* result = &depth_[(row * elevations_ + k) * wavelengths_];
+            // Across the disc the transmittance is exponential near the horizon, linear high above it: from every point of
+            // a fine rule to two points with the same second moment (a quarter of the radius squared) to the centre alone.
+            const double elevation = above + horizon;
+            const bool fine = above < 3 * sunRadius_, centre = sunRadius_ == 0 || (!fine && elevation > 0.05);
+            const size_t points = fine ? disc.nodes.size() : centre ? 1 : 2;
+            std::vector<double> mean(wavelengths_, 0.);
+            double weights = 0;
+            const double lowest = std::acos(std::clamp(-above / std::max(sunRadius_, 1e-30), -1., 1.));
+            for (size_t q = 0; q < points; ++q) {
+                // e = above + radius cos(t) takes the root out of the chord's length: dA ~ sin^2 t dt.
+                const double t = 0.5 * lowest * (1 + disc.nodes[q]);
+                const double offset = fine ? std::cos(t) : centre ? 0. : q == 0 ? 0.5 : -0.5;
+                const double e = std::max(0., above + sunRadius_ * offset);
+                const double weight = !fine ? 1 : disc.weights[q] * std::max(std::sin(t) * std::sin(t), 1e-12);
+                tracer.columns(h, std::sin(std::min(pi / 2, e + horizon)), columns.data());
+                for (int w = 0; w < wavelengths_; ++w) {
+                    double tau = 0;
+                    for (int s = 0; s < optics.species; ++s)
+                        tau += columns[s] * optics.extinction[s * wavelengths_ + w];
+                    // A sum of exponentials without underflow needs a common offset: the first ray's depth.
+                    if (q == 0)
+                        result[w] = tau;
+                    mean[w] += weight * std::exp(std::min(result[w] - tau, 600.));
+                }
+                weights += weight;
+            }
+            for (int w = 0; w < wavelengths_; ++w)
+                result[w] = std::max(0., result[w] - std::log(mean[w] / weights));
+        }
+    };
+    std::vector<std::thread> threads;
+    for (int t = 0; t < threadCount; ++t)
+        threads.emplace_back([&, t] {
+            RayTracer tracer(profile, optics, 2);
+            for (size_t row = t; row < altitudes_.size(); row += threadCount)
+                fillRow(row, tracer);
+        });
+    for (auto& thread : threads)
+        thread.join();
+}
+
+double SunTable::axis(const double elevation, const double horizon) const
+{
+    const double range = pi / 2 - horizon + sunRadius_;
+    const double x = std::max(0., elevation - horizon + sunRadius_);
+    return std::min(1., std::asinh(x / elevationScale) / std::asinh(range / elevationScale));
+}
+
+void SunTable::transmittance(const double altitude, const double muSun, double* const result) const
+{
+    const double elevation = std::asin(std::clamp(muSun, -1., 1.)), horizon = horizonElevation(planet_, altitude);
+    const double visible = visibleDiscFraction(elevation - horizon, sunRadius_);
+    if (visible <= 0) {
+        std::fill(result, result + wavelengths_, 0.);
+        return;
+    }
+    const size_t row = std::clamp<size_t>(std::upper_bound(altitudes_.begin(), altitudes_.end(), altitude) -
+                                              altitudes_.begin(), 1, altitudes_.size() - 1) - 1;
+    const double y = std::clamp((altitude - altitudes_[row]) / (altitudes_[row + 1] - altitudes_[row]), 0., 1.);
+    const double u = axis(elevation, horizon) * (elevations_ - 1);
+    const int k = std::min(static_cast<int>(u), elevations_ - 2);
+    const double x = u - k;
+    const double* a = &depth_[(row * elevations_ + k) * wavelengths_];
+    const double* b = a + elevations_ * wavelengths_;
+    for (int w = 0; w < wavelengths_; ++w) {
+        const double tau = (1 - y) * ((1 - x) * a[w] + x * a[wavelengths_ + w]) + y * ((1 - x) * b[w] + x * b[wavelengths_ + w]);
+        result[w] = visible * std::exp(-tau);
+    }
+}
+
+void SunTable::groundIrradiance(const double muSun, double* const result) const
+{
+    transmittance(0, muSun, result);
+    // Mean cosine over the visible part of the disc, to first order in its radius: the centroid of a circular segment.
+    const double elevation = std::asin(std::clamp(muSun, -1., 1.));
+    double cosine = std::max(muSun, 0.);
+    if (std::abs(elevation) < sunRadius_) {
+        const double x = elevation / sunRadius_, area = pi * visibleDiscFraction(elevation, sunRadius_);
+        cosine = area > 1e-9 ? std::sin(std::max(0., elevation + sunRadius_ * 2. / 3. * std::pow(1 - x * x, 1.5) / area)) : 0;
+    }
+    for (int w = 0; w < wavelengths_; ++w)
+        result[w] *= cosine;
+}
+
+} // namespace sky::physics

@@ -1,0 +1,45 @@
+#pragma once
+#include "physics/optics.hpp"
+#include "physics/profile.hpp"
+#include <vector>
+
+namespace sky::physics {
+
+/// Attenuation of direct sunlight: optical depth towards the visible part of the solar disc, by altitude and by the
+/// elevation of the Sun's centre above the geometric horizon *of that altitude*.
+///
+/// Sunlight at a point, on a plane facing the Sun, per unit irradiance outside the atmosphere:
+///     visibleDiscFraction(elevation - horizonElevation, radius) exp(-opticalDepth)
+/// Kept apart because the first factor is sharp and known exactly, the second smooth and tabulated.
+class SunTable
+{
+public:
+    /// Axis in the elevation x above the lowest Sun that still shows: u = asinh(x / scale) / asinh(range / scale).
+    static constexpr double elevationScale = 0.03; ///< rad
+
+    SunTable(const Profile& profile, const Optics& optics, double sunAngularRadius, int altitudes = 96, int elevations = 128,
+             int threads = 2);
+
+    const std::vector<double>& altitudes() const { return altitudes_; }
+    int elevationCount() const { return elevations_; }
+    /// [altitude][elevation][wavelength]
+    const std::vector<double>& opticalDepths() const { return depth_; }
+
+    /// Transmitted share of sunlight, [wavelength], 0..1, disc averaged, horizon included.
+    void transmittance(double altitude, double muSun, double* result) const;
+    /// Irradiance of a horizontal surface by the direct Sun per unit irradiance outside, [wavelength], at the ground.
+    void groundIrradiance(double muSun, double* result) const;
+
+    /// Position on the elevation axis, 0..1, for a Sun at `elevation` over a horizon at `horizon` (rad).
+    double axis(double elevation, double horizon) const;
+
+private:
+    Planet planet_;
+    double sunRadius_;
+    int elevations_;
+    int wavelengths_;
+    std::vector<double> altitudes_;
+    std::vector<double> depth_;
+};
+
+} // namespace sky::physics
