@@ -152,14 +152,14 @@ public:
 
     ShaderText run(std::string_view path, const std::string& version, const std::vector<Define>& defines)
     {
-        result_.text = "#version " + version + "\n";
-        // Where the driver finds fault with a define's value, it names source 0.
         result_.origins.push_back({"<defines of " + std::string(path) + ">", nullptr});
+        int line = 0;
+        add("#version " + version, 0, ++line);
         if (version.ends_with("es"))
-            result_.text += "precision highp float;\nprecision highp int;\nprecision highp sampler2D;\n"
-                            "precision highp sampler3D;\nprecision highp sampler2DArray;\n";
+            for (const char* type : {"float", "int", "sampler2D", "sampler3D", "sampler2DArray"})
+                add(std::string("precision highp ") + type + ";", 0, ++line);
         for (const Define& define : defines)
-            result_.text += "#define " + define.name + " " + define.value + "\n";
+            add("#define " + define.name + " " + define.value, 0, ++line);
         include(path, "");
         return std::move(result_);
     }
@@ -169,7 +169,7 @@ private:
     {
         if (!seen_.insert(std::string(name)).second)
             return;
-        const int number = static_cast<int>(result_.origins.size());
+        const int origin = static_cast<int>(result_.origins.size());
         if (name.starts_with("user:")) {
             const auto snippet = std::find_if(snippets_.begin(), snippets_.end(),
                                               [&](const Snippet& s) { return s.name == name.substr(5); });
@@ -177,9 +177,13 @@ private:
                 throw GlError(from + "no block is given for #include \"" + std::string(name) + "\".");
             checkSelfContained(*snippet);
             result_.origins.push_back({snippet->file, &*snippet});
-            startAt(snippet->firstLine, number);
-            // The extra line ends a last line that has no line feed or ends in a backslash.
-            result_.text += snippet->text + "\n\n";
+            int last = snippet->firstLine;
+            forEachLine(snippet->text, [&](std::string_view line, int number, bool) {
+                last = snippet->firstLine + number - 1;
+                add(line, origin, last);
+            });
+            // The extra line takes what a backslash at the end of the block would join to it.
+            add("", origin, last);
             return;
         }
         const std::string_view text = source_(name);
@@ -187,24 +191,22 @@ private:
             throw GlError(from + "there is no shader file \"" + std::string(name) + "\".");
         const std::string file(name);
         result_.origins.push_back({file, nullptr});
-        startAt(1, number);
-        const bool open = forEachLine(text, [&](std::string_view line, int lineNumber, bool inComment) {
+        const bool open = forEachLine(text, [&](std::string_view line, int number, bool inComment) {
             const auto included = inComment ? std::nullopt : includedName(line);
-            if (!included) {
-                result_.text += line;
-                result_.text += '\n';
-                return;
-            }
-            include(*included, file + ":" + std::to_string(lineNumber) + ": ");
-            startAt(lineNumber + 1, number);
+            if (included)
+                include(*included, file + ":" + std::to_string(number) + ": ");
+            else
+                add(line, origin, number);
         });
         if (open)
             throw GlError("\"" + file + "\" ends inside a comment.");
     }
 
-    void startAt(int line, int source)
+    void add(std::string_view line, int origin, int number)
     {
-        result_.text += "#line " + std::to_string(line) + " " + std::to_string(source) + "\n";
+        result_.text += line;
+        result_.text += '\n';
+        result_.lines.push_back({origin, number});
     }
 
     const SourceProvider& source_;
@@ -224,22 +226,27 @@ ShaderText expandShader(const SourceProvider& source, std::string_view path, con
 void throwCompileError(const ShaderText& shader, const std::string& label, std::string_view log)
 {
     const std::vector<DriverMessage> messages = parseDriverLog(log);
-    const auto origin = [&](const DriverMessage& message) -> const ShaderText::Origin* {
-        const bool known = message.source >= 0 && static_cast<std::size_t>(message.source) < shader.origins.size();
-        return known ? &shader.origins[static_cast<std::size_t>(message.source)] : nullptr;
+    const auto place = [&](const DriverMessage& message) -> std::optional<ShaderText::Line> {
+        if (message.line < 1 || static_cast<std::size_t>(message.line) > shader.lines.size())
+            return std::nullopt;
+        return shader.lines[static_cast<std::size_t>(message.line) - 1];
+    };
+    const auto originOf = [&](const ShaderText::Line& line) -> const ShaderText::Origin& {
+        return shader.origins[static_cast<std::size_t>(line.origin)];
     };
     const auto firstError = std::find_if(messages.begin(), messages.end(), [](const auto& m) { return m.error; });
-    if (firstError != messages.end()) {
-        const ShaderText::Origin* place = origin(*firstError);
-        if (place && place->snippet && place->snippet->fromDescription)
-            throwAt(*place->snippet, firstError->line - place->snippet->firstLine + 1, firstError->column,
-                    "the graphics driver can't compile this code: " + firstError->text);
-    }
+    if (firstError != messages.end())
+        if (const auto at = place(*firstError)) {
+            const Snippet* snippet = originOf(*at).snippet;
+            if (snippet && snippet->fromDescription)
+                throwAt(*snippet, at->line - snippet->firstLine + 1, firstError->column,
+                        "the graphics driver can't compile this code: " + firstError->text);
+        }
     std::string text = "Shader \"" + label + "\" can't be compiled:";
     for (const DriverMessage& message : messages) {
         text += "\n  ";
-        if (const ShaderText::Origin* place = origin(message))
-            text += place->file + ":" + std::to_string(message.line) + ": ";
+        if (const auto at = place(message))
+            text += originOf(*at).file + ":" + std::to_string(at->line) + ": ";
         text += message.text;
     }
     if (messages.empty())

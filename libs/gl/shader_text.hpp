@@ -29,14 +29,21 @@ struct Snippet {
 };
 
 /// One shader, all includes expanded, with what is needed to trace its lines.
+///
+/// There are no `#line` directives in it: Mesa (seen in 22.3) forgets their source-string number in most messages. Each line of
+/// the text remembers instead where it came from, which holds with every driver.
 struct ShaderText {
-    std::string text;
-    /// What source-string numbers mean: file name, and whether it is a snippet.
     struct Origin {
         std::string file;
-        const Snippet* snippet = nullptr;
+        const Snippet* snippet = nullptr; ///< null for our own files
     };
+    struct Line {
+        int origin = 0; ///< index in `origins`
+        int line = 0;   ///< 1-based line in that file
+    };
+    std::string text;
     std::vector<Origin> origins;
+    std::vector<Line> lines; ///< lines[i]: where line i + 1 of `text` came from
 };
 
 /// Joins `#version`, defines and the file `path` with its includes.
@@ -51,7 +58,7 @@ struct ShaderText {
 ShaderText expandShader(const SourceProvider& source, std::string_view path, const std::string& version,
                         const std::vector<Define>& defines, const std::vector<Snippet>& snippets);
 
-/// One message of a driver's log. `source` is -1 where the driver names no place.
+/// One message of a driver's log. `source` is -1 and `line` 0 where the driver names no place.
 struct DriverMessage {
     int source = -1;
     int line = 0;
