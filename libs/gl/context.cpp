@@ -81,9 +81,9 @@ std::vector<DeviceInfo> listDevices(const HeadlessOptions&) { return {}; }
 HeadlessContext::HeadlessContext(const HeadlessOptions& options) : implementation_(openHeadless(options))
 {
     implementation_->makeCurrent();
-    HeadlessImplementation* const implementation = implementation_.get();
-    api_ = std::make_unique<Api>(Api::load([=](const char* name) { return implementation->functionAddress(name); },
-                                           [=](const auto& action) { implementation->runCurrent(action); }));
+    api_ = std::make_unique<Api>(Api::load(loader(), [implementation = implementation_.get()](const auto& action) {
+        implementation->runCurrent(action);
+    }));
     if (options.debug != DebugOutput::off && options.debugSink)
         installDebugOutput(options);
 }
@@ -111,6 +111,11 @@ HeadlessContext& HeadlessContext::operator=(HeadlessContext&& other) noexcept
 
 void HeadlessContext::makeCurrent() { implementation_->makeCurrent(); }
 void HeadlessContext::release() { implementation_->release(); }
+
+Loader HeadlessContext::loader() const
+{
+    return [implementation = implementation_.get()](const char* name) { return implementation->functionAddress(name); };
+}
 
 void HeadlessContext::installDebugOutput(const HeadlessOptions& options)
 {

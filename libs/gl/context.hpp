@@ -65,6 +65,8 @@ public:
     void makeCurrent();
     /// Makes no context current, so that another thread can take this one.
     void release();
+    /// Finds this context's functions, to lend it to a library that borrows contexts. Must not outlive the context.
+    Loader loader() const;
     /// What made the context: "EGL device 0" or "OSMesa".
     std::string description() const { return implementation_->description(); }
 
@@ -83,7 +85,7 @@ class BorrowedContext
 public:
     /// throws GlError where no context is current or it is older than OpenGL 3.3 / ES 3.0
     explicit BorrowedContext(const Loader& loader);
-    BorrowedContext(void* (*loader)(const char*)) : BorrowedContext(Loader(loader)) {}
+    explicit BorrowedContext(void* (*loader)(const char*)) : BorrowedContext(Loader(loader)) {}
 
     const Api& api() const { return api_; }
     /// From now on no object of this context calls OpenGL again.

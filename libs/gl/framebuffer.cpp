@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "base/error.hpp"
+#include "gl/pixel_store.hpp"
 
 namespace sky::gl {
 
@@ -76,6 +77,7 @@ std::vector<float> Framebuffer::readPixels(int index, bool bytes) const
 {
     const Api& gl = api();
     const BindingScope binding(gl, name());
+    const PixelStoreScope pixelStore(gl, PixelTransfer::pack);
     gl->ReadBuffer(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(index));
     std::vector<float> values(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * 4);
     if (bytes) {

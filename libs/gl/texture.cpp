@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "gl/framebuffer.hpp"
+#include "gl/pixel_store.hpp"
 
 namespace sky::gl {
 
@@ -31,42 +32,6 @@ bool is32Bit(TextureFormat format)
 {
     return format == TextureFormat::r32f || format == TextureFormat::rg32f || format == TextureFormat::rgba32f;
 }
-
-/// Neutral pixel-store state for one transfer: the host's row lengths and alignments are not ours, and are put back. While a
-/// pixel buffer is bound, pointers would be read as offsets into it.
-class PixelStoreScope
-{
-public:
-    PixelStoreScope(const Api& api, bool pack) : api_(api), pack_(pack)
-    {
-        for (std::size_t i = 0; i < std::size(unpackNames); ++i) {
-            api_->GetIntegerv(names()[i], &values_[i]);
-            api_->PixelStorei(names()[i], i == 0 ? 1 : 0);
-        }
-        api_->GetIntegerv(pack_ ? GL_PIXEL_PACK_BUFFER_BINDING : GL_PIXEL_UNPACK_BUFFER_BINDING, &buffer_);
-        api_->BindBuffer(target(), 0);
-    }
-    ~PixelStoreScope()
-    {
-        for (std::size_t i = 0; i < std::size(unpackNames); ++i)
-            api_->PixelStorei(names()[i], values_[i]);
-        api_->BindBuffer(target(), static_cast<GLuint>(buffer_));
-    }
-    PixelStoreScope(const PixelStoreScope&) = delete;
-    PixelStoreScope& operator=(const PixelStoreScope&) = delete;
-
-private:
-    static constexpr GLenum unpackNames[] = {GL_UNPACK_ALIGNMENT, GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_PIXELS,
-                                             GL_UNPACK_SKIP_ROWS};
-    static constexpr GLenum packNames[] = {GL_PACK_ALIGNMENT, GL_PACK_ROW_LENGTH, GL_PACK_SKIP_PIXELS, GL_PACK_SKIP_ROWS};
-    const GLenum* names() const { return pack_ ? packNames : unpackNames; }
-    GLenum target() const { return pack_ ? GL_PIXEL_PACK_BUFFER : GL_PIXEL_UNPACK_BUFFER; }
-
-    const Api& api_;
-    bool pack_;
-    GLint values_[std::size(unpackNames)]{};
-    GLint buffer_ = 0;
-};
 
 std::vector<std::uint8_t> toBytes(const float* values, std::size_t count)
 {
@@ -104,7 +69,7 @@ Texture::Texture(const Api& context, std::string labelText, GLenum target, Textu
     whileBound([&] {
         const FormatTraits& t = traits(format_);
         const GLenum type = format_ == TextureFormat::rgba8 ? GL_UNSIGNED_BYTE : GL_FLOAT;
-        const PixelStoreScope pixelStore(gl, false); // a pixel buffer bound by the host would be read as data
+        const PixelStoreScope pixelStore(gl, PixelTransfer::unpack); // with the host's buffer bound, null is an offset
         if (target_ == GL_TEXTURE_3D)
             gl->TexImage3D(target_, 0, static_cast<GLint>(t.internal), size_.width, size_.height, size_.depth, 0, t.external,
                            type, nullptr);
@@ -146,7 +111,7 @@ void Texture::uploadSlices(int first, int count, const float* values)
         type = GL_UNSIGNED_BYTE;
     }
     whileBound([&] {
-        const PixelStoreScope pixelStore(gl, false);
+        const PixelStoreScope pixelStore(gl, PixelTransfer::unpack);
         if (target_ == GL_TEXTURE_3D)
             gl->TexSubImage3D(target_, 0, 0, 0, first, size_.width, size_.height, count, t.external, type, data);
         else
@@ -159,7 +124,7 @@ std::vector<float> Texture::download() const
     const Api& gl = api();
     const auto used = static_cast<std::size_t>(channels(format_));
     std::vector<float> values(size_.texels() * used);
-    const PixelStoreScope pixelStore(gl, true);
+    const PixelStoreScope pixelStore(gl, PixelTransfer::pack);
     if (!gl.isEs()) {
         whileBound([&] { gl->GetTexImage(target_, 0, traits(format_).external, GL_FLOAT, values.data()); });
         checkErrors(gl, "reading a texture back", label());
