@@ -9,7 +9,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double plainShare = 0.5;         // of events placed by optical depth alone; bounds the guide's weights by 2
-constexpr double rouletteThreshold = 0.25; // of the path's weight at its first counted event
+constexpr double rouletteThreshold = 0.05; // of the path's weight at its first counted event
 
 } // namespace
 
