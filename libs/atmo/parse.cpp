@@ -250,13 +250,14 @@ private:
         if (name.size() < 2 || !name.starts_with('"') || !name.ends_with('"'))
             source_.fail(entry.keyPlace, "expected a name in double quotes, like `" + word + " \"molecules\":`");
         name = trimmed(name.substr(1, name.size() - 2));
+        const Position place{entry.keyPlace.line,
+                             entry.keyPlace.offset + static_cast<std::size_t>(name.data() - entry.key.data())};
         const bool legal = std::all_of(name.begin(), name.end(), [](char c) {
             return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
         });
         if (name.empty() || name.size() > longestName || !legal)
-            source_.fail(entry.keyPlace, inBackticks(name) + " can't be the name of a species; expected 1 to " +
-                                             std::to_string(longestName) +
-                                             " letters (a-z, A-Z), digits and underscores");
+            source_.fail(place, inBackticks(name) + " can't be the name of a species; expected 1 to " +
+                                    std::to_string(longestName) + " letters (a-z, A-Z), digits and underscores");
         // Tables of the model are files named after the species, and some file systems don't tell small from capital.
         const auto lower = [](std::string_view text) {
             std::string result(text);
@@ -266,11 +267,10 @@ private:
         };
         for (const std::string& earlier : names_)
             if (lower(earlier) == lower(name))
-                source_.fail(entry.keyPlace,
-                             "there is a species `" + earlier +
-                                 "` already; expected another name (small and capital letters count as equal)");
+                source_.fail(place, "there is a species `" + earlier +
+                                        "` already; expected another name (small and capital letters count as equal)");
         if (names_.size() == static_cast<std::size_t>(mostSpecies))
-            source_.fail(entry.keyPlace, "too many species; expected at most " + std::to_string(mostSpecies));
+            source_.fail(place, "too many species; expected at most " + std::to_string(mostSpecies));
         names_.emplace_back(name);
         return names_.back();
     }

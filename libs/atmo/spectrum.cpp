@@ -59,7 +59,8 @@ Spectrum readList(const SpectrumContext& context, const Entry& entry, SpectrumRa
         list.push_back(reader.number());
         checkRange(context, entry, place, list, range);
     } while (reader.accept(','));
-    reader.expectEnd();
+    if (!reader.atEnd())
+        reader.fail("expected a comma between numbers, found " + inBackticks(reader.peek()));
     if (list.size() < count)
         reader.fail(inBackticks(entry.key) + " has " + std::to_string(list.size()) +
                     (list.size() == 1 ? " number; " : " numbers; ") + expected);
