@@ -1,0 +1,32 @@
+// calcmysky: what was asked (options.cpp) goes to the libraries that can do it.
+
+#include <iostream>
+#include <iterator>
+
+#include "atmo/parse.hpp"
+#include "gl/context.hpp"
+#include "program.hpp"
+#include "solver/solve.hpp"
+
+int main(int argc, char** argv)
+{
+    using namespace sky;
+    cli::Services services;
+    services.read = [](const std::string& path, const atmo::ParseOptions& options) {
+        if (path != "-")
+            return atmo::parseFile(path, options);
+        const std::string text{std::istreambuf_iterator<char>(std::cin), {}};
+        return atmo::parse(text, "<standard input>", ".", options);
+    };
+    services.plan = solver::plan;
+    services.solve = [](const atmo::Description& description, const solver::Options& options,
+                        const gl::HeadlessOptions& openGl, const std::filesystem::path& outDir, solver::Progress& progress) {
+        gl::HeadlessContext context(openGl);
+        solver::solve(description, options, context, outDir, progress);
+    };
+    services.validate = [](const atmo::Description& description, const gl::HeadlessOptions& openGl) {
+        gl::HeadlessContext context(openGl);
+        solver::validate(description, context);
+    };
+    return cli::runProgram(argc, argv, services);
+}
