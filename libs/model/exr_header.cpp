@@ -13,6 +13,8 @@ namespace {
 constexpr std::uint32_t magic = 20000630, versionMask = 0xff, longNames = 0x400;
 constexpr std::uint64_t maxHeaderBytes = 1 << 20;
 enum Compression { none = 0, zips = 2, zip = 3, piz = 4 };
+// All that a header of this format needs. Others, as previews, carry sizes that the library would trust.
+constexpr std::array knownTypes{"chlist", "box2i", "compression", "lineOrder", "float", "int", "double", "v2f", "string"};
 
 class HeaderReader
 {
@@ -104,6 +106,8 @@ void checkExrHeader(std::istream& stream, std::uint64_t fileBytes, const Table& 
     for (std::string name; !(name = in.name()).empty();) {
         const std::string type = in.name();
         const std::string value = in.bytes(in.integer());
+        if (std::find(knownTypes.begin(), knownTypes.end(), type) == knownTypes.end())
+            in.fail("the EXR header has an attribute of the type '" + type + "', which this format does not use");
         if (!seen.insert(name).second)
             in.fail("the EXR header has '" + name + "' twice");
         if (name == "channels" && type == "chlist")
