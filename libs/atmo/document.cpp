@@ -3,11 +3,9 @@
 #include <array>
 #include <utility>
 
-namespace sky::atmo
-{
+namespace sky::atmo {
 
-namespace
-{
+namespace {
 
 constexpr std::string_view fence = "```";
 

@@ -4,8 +4,7 @@
 #include "atmo/description.hpp"
 #include "atmo/source.hpp"
 
-namespace sky::atmo
-{
+namespace sky::atmo {
 
 /// One entry. What stands before the first colon is the key; a token has no colon.
 struct Entry {

@@ -5,11 +5,9 @@
 
 #include <algorithm>
 
-namespace sky::atmo
-{
+namespace sky::atmo {
 
-namespace
-{
+namespace {
 
 bool contains(std::span<const std::string_view> keys, std::string_view wanted)
 {

@@ -6,8 +6,7 @@
 #include <functional>
 #include <span>
 
-namespace sky::atmo
-{
+namespace sky::atmo {
 
 class Fields
 {

@@ -6,11 +6,9 @@
 #include <algorithm>
 #include <vector>
 
-namespace sky::atmo
-{
+namespace sky::atmo {
 
-namespace
-{
+namespace {
 
 constexpr double astronomicalUnit = 149597870700.0; // m, IAU 2012 resolution B2
 constexpr int maxTexels = 16384;                    // along one axis

@@ -7,8 +7,7 @@
 #include <span>
 #include <string_view>
 
-namespace sky::atmo
-{
+namespace sky::atmo {
 
 /// A key whose value is a whole number.
 struct WholeNumberKey {
@@ -32,8 +31,7 @@ std::span<const WholeNumberKey> wholeNumberKeys();
 std::span<const LengthKey> lengthKeys();
 
 /// The keys at the top level beside those in the two tables, sections not counted.
-namespace key
-{
+namespace key {
 inline constexpr std::string_view version = "version";
 inline constexpr std::string_view scatteringOrders = "scattering orders";
 inline constexpr std::string_view wavelengths = "wavelengths";

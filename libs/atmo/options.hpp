@@ -1,8 +1,7 @@
 #pragma once
 // How spectra in files are brought to the wavelengths of a description.
 
-namespace sky::atmo
-{
+namespace sky::atmo {
 
 enum class Resampling {
     BandAverage, ///< mean of the piecewise-linear file over half a grid step to either side, clipped to the file's

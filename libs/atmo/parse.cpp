@@ -11,11 +11,9 @@
 #include <cstdint>
 #include <iterator>
 
-namespace sky::atmo
-{
+namespace sky::atmo {
 
-namespace
-{
+namespace {
 
 constexpr std::uintmax_t largestDescription = 16u << 20; // bytes
 constexpr std::size_t longestName = 64;

@@ -8,8 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace sky::atmo
-{
+namespace sky::atmo {
 
 /// Reads a description (docs/language.md).
 ///   fileName   what messages call the text

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 
-namespace sky::atmo
-{
+namespace sky::atmo {
 
-namespace
-{
+namespace {
 
 constexpr std::size_t longestShownLine = 160; // bytes; a terminal or two of context around the caret
 constexpr std::size_t longestQuotation = 60;

@@ -7,8 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sky::atmo
-{
+namespace sky::atmo {
 
 /// A place in a Source: 1-based line, 0-based byte offset into it.
 struct Position {

@@ -11,11 +11,9 @@
 #include <cmath>
 #include <functional>
 
-namespace sky::atmo
-{
+namespace sky::atmo {
 
-namespace
-{
+namespace {
 
 constexpr std::uintmax_t largestFile = 64u << 20; // bytes
 constexpr std::size_t mostWeightedFiles = 64;

@@ -7,8 +7,7 @@
 #include <filesystem>
 #include <limits>
 
-namespace sky::atmo
-{
+namespace sky::atmo {
 
 /// What all spectra of a description share.
 struct SpectrumContext {

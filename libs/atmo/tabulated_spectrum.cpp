@@ -3,9 +3,15 @@
 #include "atmo/value.hpp"
 
 #include <algorithm>
+#include <cmath>
 
-namespace sky::atmo
-{
+namespace sky::atmo {
+
+namespace {
+
+constexpr double longestNm = 1e9; // one metre: enough for any light, and differences stay finite
+
+} // namespace
 
 TabulatedSpectrum::TabulatedSpectrum(const Source& table)
 {
@@ -20,6 +26,8 @@ TabulatedSpectrum::TabulatedSpectrum(const Source& table)
         const double nm = reader.number();
         reader.expect(',', "the wavelength");
         const double value = reader.number();
+        if (!(nm > 0 && nm <= longestNm))
+            table.fail(place, "the wavelength must be above 0 and at most 1e9 nm");
         if (!reader.atEnd())
             reader.fail("expected two columns, wavelength in nm and value");
         if (!wavelengthsNm_.empty()) {
@@ -48,7 +56,7 @@ double TabulatedSpectrum::at(double nm) const
     const auto above = std::upper_bound(wavelengthsNm_.begin(), wavelengthsNm_.end(), nm);
     const auto i = static_cast<std::size_t>(above - wavelengthsNm_.begin());
     const double fraction = (nm - wavelengthsNm_[i - 1]) / (wavelengthsNm_[i] - wavelengthsNm_[i - 1]);
-    return values_[i - 1] + fraction * (values_[i] - values_[i - 1]);
+    return std::lerp(values_[i - 1], values_[i], fraction);
 }
 
 double TabulatedSpectrum::bandMean(double nm, double halfWidthNm) const

@@ -5,8 +5,7 @@
 
 #include <vector>
 
-namespace sky::atmo
-{
+namespace sky::atmo {
 
 /// Points in ascending order of wavelength, nm; linear between them.
 class TabulatedSpectrum

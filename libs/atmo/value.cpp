@@ -6,11 +6,9 @@
 #include <cstdlib>
 #include <limits>
 
-namespace sky::atmo
-{
+namespace sky::atmo {
 
-namespace
-{
+namespace {
 
 /// A unit is 10^exponent SI units; the astronomical unit (IAU 2012 B2) is a number of metres besides.
 struct Unit {

@@ -3,8 +3,7 @@
 
 #include "atmo/document.hpp"
 
-namespace sky::atmo
-{
+namespace sky::atmo {
 
 enum class Dimension { Length, ReciprocalLength, Area };
 

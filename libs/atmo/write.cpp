@@ -5,11 +5,9 @@
 
 #include <charconv>
 
-namespace sky::atmo
-{
+namespace sky::atmo {
 
-namespace
-{
+namespace {
 
 /// The shortest digits that read back as the same number. Quantities have no exponents in the language as specified.
 std::string digits(double value, std::chars_format format)

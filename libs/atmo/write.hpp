@@ -5,8 +5,7 @@
 
 #include <string>
 
-namespace sky::atmo
-{
+namespace sky::atmo {
 
 /// Text that parse() reads back to exactly `description`: every key is there, in a fixed order, spectra are lists.
 ///   throws  RangeError if no text stands for it: a spectrum's length differs from the count of wavelengths, a code

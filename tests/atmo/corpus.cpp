@@ -11,8 +11,7 @@
 
 namespace fs = std::filesystem;
 
-namespace
-{
+namespace {
 
 const fs::path corpus = fs::path(SKY_TEST_DATA) / "corpus";
 

@@ -10,8 +10,7 @@
 
 using namespace sky::atmo;
 
-namespace
-{
+namespace {
 
 const std::filesystem::path examples = std::filesystem::path(SKY_SOURCE_DIR) / "examples";
 

@@ -12,8 +12,7 @@
 using namespace sky::atmo;
 using Catch::Matchers::Contains;
 
-namespace
-{
+namespace {
 
 double quantity(const std::string& text, Dimension dimension)
 {

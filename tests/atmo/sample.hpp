@@ -6,8 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace sample
-{
+namespace sample {
 
 inline const std::string text = R"(version: 6
 Earth radius: 6371 km

@@ -12,8 +12,7 @@
 using namespace sky::atmo;
 using Catch::Matchers::Contains;
 
-namespace
-{
+namespace {
 
 TabulatedSpectrum table(const std::string& text)
 {
