@@ -127,7 +127,8 @@ void SunTable::groundIrradiance(const double muSun, double* const result) const
     double cosine = std::max(muSun, 0.);
     if (std::abs(elevation) < sunRadius_) {
         const double x = elevation / sunRadius_, area = pi * visibleDiscFraction(elevation, sunRadius_);
-        cosine = area > 1e-9 ? std::sin(std::max(0., elevation + sunRadius_ * 2. / 3. * std::pow(1 - x * x, 1.5) / area)) : 0;
+        const double lift = x < -0.99 ? 0 : sunRadius_ * 2. / 3. * std::pow(1 - x * x, 1.5) / area;
+        cosine = std::max(0., elevation + lift);
     }
     for (int w = 0; w < wavelengths_; ++w)
         result[w] *= cosine;

@@ -1,0 +1,200 @@
+#include "solver/gather.hpp"
+#include "physics/harmonics.hpp"
+#include "sky_shaders.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace sky::solver {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+/// Work of one dispatch, in node visits: some tens of milliseconds on two cores, far below any watchdog on a GPU.
+constexpr std::size_t visitsPerDispatch = 1 << 21;
+constexpr std::size_t sourceBytes = std::size_t(48) << 20;
+
+std::vector<gl::Define> definesOf(const Scene& scene, const std::vector<std::array<double, 4>>& luminance)
+{
+    std::vector<gl::Define> defines{{"SETS", std::to_string(scene.sets())},
+                                    {"DEGREE", std::to_string(scene.optics.degree)},
+                                    {"SCATTERERS", std::to_string(scene.scatterers())}};
+    if (!luminance.empty())
+        defines.push_back({"LUMINANCE", "1"});
+    return defines;
+}
+
+void setLuminance(gl::Program& program, const Scene& scene, const std::vector<std::array<double, 4>>& luminance)
+{
+    if (luminance.empty())
+        return;
+    std::vector<std::array<float, 4>> values(scene.sets() * 4);
+    for (std::size_t w = 0; w < luminance.size(); ++w)
+        for (int c = 0; c < 4; ++c)
+            values[w][c] = static_cast<float>(luminance[w][c]);
+    program.setVec4s("luminance", values);
+}
+
+void bind(gl::Program& program, const char* name, int unit, const TexelBuffer& texels)
+{
+    program.set(name, unit);
+    texels.texture.bindUnit(static_cast<GLuint>(unit));
+}
+
+void bindSamples(gl::Program& program, const SunSamples& samples, Strides strides, int nodes)
+{
+    bind(program, "sunCosines", 0, samples.sunCosines);
+    bind(program, "azimuthCosines", 1, samples.azimuthCosines);
+    program.set("suns", samples.suns);
+    program.set("azimuths", samples.azimuths);
+    program.set("nodes", nodes);
+    program.set("strides", std::array<int, 3>{strides.ray, strides.sun, strides.azimuth});
+}
+
+std::vector<float> sunDepthTexels(const Scene& scene)
+{
+    const int sets = scene.sets(), wavelengths = scene.optics.wavelengths;
+    const auto& depths = scene.sun.opticalDepths();
+    std::vector<float> values(depths.size() / wavelengths * sets * 4, 0.F);
+    for (std::size_t i = 0; i < depths.size() / wavelengths; ++i)
+        for (int w = 0; w < wavelengths; ++w)
+            values[i * sets * 4 + w] = static_cast<float>(depths[i * wavelengths + w]);
+    return values;
+}
+
+/// field: [scatterer][l][set], (2l+1)/(4 pi) lambda_l; otherwise [scatterer][angle][set], at the medium's angles.
+std::vector<float> phaseTexels(const Scene& scene, bool field)
+{
+    const int sets = scene.sets(), wavelengths = scene.optics.wavelengths, degree = scene.optics.degree;
+    const std::size_t rows = field ? degree + 1 : scene.medium.scatteringAngles.size();
+    std::vector<float> values(scene.scatterers() * rows * sets * 4, 0.F);
+    for (int i = 0; i < scene.scatterers(); ++i) {
+        const int s = scene.optics.scatterers[i];
+        for (std::size_t row = 0; row < rows; ++row)
+            for (int w = 0; w < wavelengths; ++w)
+                values[(i * rows + row) * sets * 4 + w] = static_cast<float>(
+                    field ? (2. * double(row) + 1) / (4 * pi) * scene.optics.moment(s, static_cast<int>(row), w)
+                          : scene.medium.species[s].phaseFunction[row * wavelengths + w] /
+                                (1 - scene.optics.truncation[s * wavelengths + w]));
+    }
+    return values;
+}
+
+std::vector<gl::Define> directDefines(const Scene& scene, bool field, const std::vector<std::array<double, 4>>& luminance)
+{
+    auto defines = definesOf(scene, luminance);
+    if (field)
+        defines.push_back({"FIELD", "1"});
+    return defines;
+}
+
+} // namespace
+
+SunSamples::SunSamples(const gl::Api& api, const std::vector<float>& sunValues, const std::vector<float>& azimuthValues)
+    : suns(static_cast<int>(sunValues.size())), azimuths(static_cast<int>(azimuthValues.size())),
+      sunCosines(api, "Sun cosines", sunValues, 1), azimuthCosines(api, "azimuth cosines", azimuthValues, 1)
+{
+}
+
+DirectGather::DirectGather(const gl::Api& api, const Scene& scene, bool field,
+                           const std::vector<std::array<double, 4>>& luminance)
+    : api_(api), scene_(scene), field_(field),
+      program_(gl::ProgramBuilder(api, shaders::source)
+                   .compute("direct gather", "solve/direct.comp", directDefines(scene, field, luminance))),
+      sunDepths_(api, "sunlight optical depths", sunDepthTexels(scene)), phases_(api, "phase functions", phaseTexels(scene, field))
+{
+    setLuminance(program_, scene, luminance);
+}
+
+void DirectGather::gather(const DirectRays& rays, const SunSamples& samples, Strides strides,
+                          const std::vector<bool>& withPhase, gl::Buffer& results, const Breath& breath)
+{
+    bindSamples(program_, samples, strides, rays.nodes);
+    bind(program_, "rayNodes", 2, rays.rayNodes);
+    bind(program_, "sunDepths", 3, sunDepths_);
+    bind(program_, "weights", 4, rays.weights);
+    bind(program_, "ground", 5, rays.ground);
+    bind(program_, "phases", 6, phases_);
+    program_.set("elevations", scene_.sun.elevationCount());
+    program_.set("sunRadius", static_cast<float>(scene_.medium.sunAngularRadius));
+    program_.set("angles", static_cast<int>(scene_.medium.scatteringAngles.size()));
+    const int texels = rays.count * samples.suns * samples.azimuths;
+    for (std::size_t i = 0; i < withPhase.size(); ++i) {
+        program_.set("withPhase[" + std::to_string(i) + "]", withPhase[i] ? 1 : 0);
+        program_.set("resultOffsets[" + std::to_string(i) + "]",
+                     static_cast<int>(i) * texels * (program_.has("luminance[0]") ? 1 : scene_.sets()));
+    }
+    results.bindStorage(0);
+    const gl::Bound pass(program_);
+    const std::size_t visits = std::size_t(samples.suns) * samples.azimuths * rays.nodes;
+    const int chunk = static_cast<int>(std::clamp<std::size_t>(visitsPerDispatch / visits, 1, 4096));
+    for (int first = 0; first < rays.count; first += chunk) {
+        breath();
+        program_.set("firstRay", first);
+        program_.dispatchOver(static_cast<unsigned>(samples.suns * samples.azimuths),
+                              static_cast<unsigned>(std::min(chunk, rays.count - first)));
+        api_->Flush();
+    }
+    gl::memoryBarrier(api_);
+    gl::checkErrors(api_, "direct gather");
+}
+
+ScatteredGather::ScatteredGather(const gl::Api& api, const Scene& scene, bool fromGround,
+                                 const std::vector<std::array<double, 4>>& luminance)
+    : api_(api), scene_(scene),
+      prepare_(gl::ProgramBuilder(api, shaders::source).compute("prepare rays", "solve/prepare.comp", definesOf(scene, {}))),
+      scattered_([&] {
+          auto defines = definesOf(scene, luminance);
+          defines.push_back({"FROM_GROUND", fromGround ? "1" : "0"});
+          return gl::ProgramBuilder(api, shaders::source).compute("scattered gather", "solve/scattered.comp", defines);
+      }())
+{
+    setLuminance(scattered_, scene, luminance);
+}
+
+void ScatteredGather::gather(const ScatteredRays& rays, const FieldTexels& field, const SunSamples& samples, Strides strides,
+                             gl::Buffer& results, const Breath& breath)
+{
+    bindSamples(scattered_, samples, strides, rays.nodes);
+    bind(scattered_, "rayNodes", 2, rays.rayNodes);
+    scattered_.set("fieldSuns", field.suns);
+    scattered_.set("vLowest", static_cast<float>(field.vLowest));
+    bind(prepare_, "field", 4, field.moments);
+    bind(prepare_, "groundField", 5, field.ground);
+    bind(prepare_, "altitudeStencils", 6, rays.altitudeStencils);
+    bind(prepare_, "coefficients", 7, rays.coefficients);
+    bind(prepare_, "factors", 8, rays.factors);
+    bind(prepare_, "ground", 9, rays.ground);
+    prepare_.set("suns", field.suns);
+    prepare_.set("nodes", rays.nodes);
+
+    const std::size_t perRay = std::size_t(rays.nodes + 1) * field.suns * (scene_.optics.degree + 2) * scene_.sets();
+    const std::size_t visits = std::size_t(samples.suns) * samples.azimuths * rays.nodes;
+    const std::size_t fitting = std::min(sourceBytes / 16, gl::BufferTexture::maxTexels(api_)) / perRay;
+    const int chunk = static_cast<int>(std::clamp<std::size_t>(std::min(fitting, visitsPerDispatch / visits), 1, rays.count));
+    if (!source_ || sourceTexels_ < chunk * perRay) {
+        source_.reset();
+        source_.emplace(api_, "ray sources", chunk * perRay);
+        sourceTexels_ = chunk * perRay;
+    }
+    bind(scattered_, "source", 3, *source_);
+    for (int first = 0; first < rays.count; first += chunk) {
+        breath();
+        const auto count = static_cast<unsigned>(std::min(chunk, rays.count - first));
+        {
+            const gl::Bound pass(prepare_);
+            prepare_.set("firstRay", first);
+            source_->buffer.bindStorage(0);
+            prepare_.dispatchOver(static_cast<unsigned>(field.suns * scene_.sets()), count * static_cast<unsigned>(rays.nodes + 1));
+        }
+        gl::memoryBarrier(api_);
+        const gl::Bound pass(scattered_);
+        scattered_.set("firstRay", first);
+        results.bindStorage(0);
+        scattered_.dispatchOver(static_cast<unsigned>(samples.suns * samples.azimuths), count);
+        gl::memoryBarrier(api_);
+        api_->Flush();
+    }
+    gl::checkErrors(api_, "scattered gather");
+}
+
+} // namespace sky::solver

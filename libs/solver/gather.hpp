@@ -1,0 +1,66 @@
+#pragma once
+#include "gl/program.hpp"
+#include "solver/field.hpp"
+#include <functional>
+#include <optional>
+
+namespace sky::solver {
+
+/// The Suns and azimuths for which rays gather light.
+struct SunSamples {
+    int suns, azimuths;
+    TexelBuffer sunCosines, azimuthCosines;
+    SunSamples(const gl::Api& api, const std::vector<float>& sunCosines, const std::vector<float>& azimuthCosines);
+};
+
+/// Where results go: strides in texels for ray, Sun and azimuth.
+struct Strides {
+    int ray, sun, azimuth;
+};
+
+/// Called between dispatches, which are kept short: throws to stop.
+using Breath = std::function<void()>;
+
+/// Light of the first event along rays: solve/direct.comp.
+class DirectGather
+{
+public:
+    /// \param field  true: all species together, phase functions cut at the degree, sunlit ground included: starts the
+    ///               iteration. false: each species apart, see gather().
+    /// \param luminance [wavelength] X, Y, Z, scotopic of unit radiance over unit solar irradiance; empty: spectral results
+    DirectGather(const gl::Api& api, const Scene& scene, bool field, const std::vector<std::array<double, 4>>& luminance);
+
+    /// Fills `results`. For each scatterer (in the order of Optics::scatterers; one result in all if `field`) a block of
+    /// rays x suns x azimuths texels; a texel is one vec4 of luminance or sets() vec4s of radiance per unit solar irradiance.
+    ///   withPhase  [scatterer] multiply by the exact phase function
+    void gather(const DirectRays& rays, const SunSamples& samples, Strides strides, const std::vector<bool>& withPhase,
+                gl::Buffer& results, const Breath& breath);
+
+private:
+    gl::Api api_;
+    const Scene scene_;
+    bool field_;
+    gl::Program program_;
+    TexelBuffer sunDepths_, phases_;
+};
+
+/// Light of later events along rays: solve/prepare.comp and solve/scattered.comp.
+class ScatteredGather
+{
+public:
+    /// \param fromGround whether light reflected by the ground into the ray counts
+    ScatteredGather(const gl::Api& api, const Scene& scene, bool fromGround, const std::vector<std::array<double, 4>>& luminance);
+
+    /// Fills `results`: rays x suns x azimuths texels, see DirectGather.
+    void gather(const ScatteredRays& rays, const FieldTexels& field, const SunSamples& samples, Strides strides,
+                gl::Buffer& results, const Breath& breath);
+
+private:
+    gl::Api api_;
+    const Scene scene_;
+    gl::Program prepare_, scattered_;
+    std::optional<TexelBuffer> source_; // kept between calls: it is large
+    std::size_t sourceTexels_ = 0;
+};
+
+} // namespace sky::solver

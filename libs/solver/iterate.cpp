@@ -1,0 +1,243 @@
+#include "solver/iterate.hpp"
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "physics/harmonics.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace sky::solver {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr int mostEvents = 200;
+/// Fine suns per sun of the grid inside the iteration: its errors average out over directions.
+constexpr int sweepRefinement = 2;
+
+using physics::harmonicCount;
+using physics::harmonicIndex;
+
+/// Sums over events: plain values, unlike physics::Moments with its logarithms.
+struct Sums {
+    std::vector<double> moments;    // [altitude][sun][lm][wavelength]
+    std::vector<double> irradiance; // [altitude][sun][wavelength], downward
+};
+
+class Sweeps
+{
+public:
+    Sweeps(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid, const physics::MomentSettings& settings)
+        : api_(api), scene_(scene), grid_(grid), settings_(settings), starts_(makeStarts()),
+          samples_(api, sunCosines(), azimuthCosines()),
+          results_(api, "sweep radiance",
+                   starts_.size() * samples_.suns * samples_.azimuths * scene.sets() * 4 * sizeof(float))
+    {
+    }
+
+    Sums direct(const Breath& breath)
+    {
+        const DirectRays rays(api_, scene_, starts_, settings_.directNodes);
+        DirectGather gather(api_, scene_, true, {});
+        gather.gather(rays, samples_, strides(), {}, results_, breath);
+        return project();
+    }
+
+    Sums scattered(const physics::Moments& field, const Breath& breath)
+    {
+        if (!gather_) {
+            rays_.emplace(api_, scene_, grid_, starts_, settings_.nodes);
+            gather_.emplace(api_, scene_, true, std::vector<std::array<double, 4>>{});
+        }
+        gather_->gather(*rays_, FieldTexels(api_, field, sweepRefinement), samples_, strides(), results_, breath);
+        return project();
+    }
+
+    physics::Moments toMoments(const Sums& sums) const
+    {
+        const int count = harmonicCount(settings_.degree), wavelengths = scene_.optics.wavelengths;
+        physics::Moments m{grid_, settings_.degree, wavelengths, sums.moments, {}};
+        for (int a = 0; a < grid_.altitudeCount(); ++a)
+            for (int j = 0; j < grid_.sunCount(); ++j) {
+                double* v = m.at(a, j);
+                for (int w = 0; w < wavelengths; ++w) {
+                    const double whole = std::max(v[w], physics::darkness);
+                    for (int lm = 1; lm < count; ++lm)
+                        v[lm * wavelengths + w] /= whole;
+                    v[w] = std::log(whole);
+                }
+            }
+        m.groundIrradiance.assign(sums.irradiance.begin(), sums.irradiance.begin() + grid_.sunCount() * wavelengths);
+        return m;
+    }
+
+private:
+    std::vector<RayStart> makeStarts()
+    {
+        std::vector<RayStart> starts;
+        for (const double h : grid_.altitudes()) {
+            firstRay_.push_back(static_cast<int>(starts.size()));
+            directions_.push_back(physics::directionsAt(scene_.profile.planet(), h, settings_));
+            const auto& set = directions_.back();
+            for (std::size_t d = 0; d < set.mu.size(); ++d)
+                starts.push_back({h, set.mu[d], set.hitsGround[d]});
+        }
+        return starts;
+    }
+
+    std::vector<float> sunCosines() const
+    {
+        std::vector<float> values;
+        for (int j = 0; j < grid_.sunCount(); ++j)
+            values.push_back(static_cast<float>(std::sin(grid_.sunElevation(j))));
+        return values;
+    }
+
+    std::vector<float> azimuthCosines() const
+    {
+        std::vector<float> values;
+        for (int k = 0; k < settings_.azimuths; ++k)
+            values.push_back(static_cast<float>(std::cos(pi * (k + 0.5) / settings_.azimuths)));
+        return values;
+    }
+
+    Strides strides() const { return {samples_.suns * samples_.azimuths, samples_.azimuths, 1}; }
+
+    /// Moments by quadrature: Gauss-Legendre in mu on each panel, midpoints in azimuth (exact for trigonometric polynomials).
+    Sums project() const
+    {
+        const auto radiance = results_.download();
+        const int degree = settings_.degree, count = harmonicCount(degree), wavelengths = scene_.optics.wavelengths;
+        const int suns = samples_.suns, azimuths = samples_.azimuths, stride = scene_.sets() * 4;
+        Sums sums{std::vector<double>(std::size_t(grid_.altitudeCount()) * suns * count * wavelengths, 0.),
+                  std::vector<double>(std::size_t(grid_.altitudeCount()) * suns * wavelengths, 0.)};
+        std::vector<double> waves(azimuths * (degree + 1));
+        for (int k = 0; k < azimuths; ++k)
+            for (int m = 0; m <= degree; ++m)
+                waves[k * (degree + 1) + m] = std::cos(m * pi * (k + 0.5) / azimuths) * 2 * pi / azimuths;
+        base::parallel([&](int thread, int threads) {
+            std::vector<double> factors(count), byAzimuth((degree + 1) * wavelengths);
+            for (int a = thread; a < grid_.altitudeCount(); a += threads) {
+                const auto& set = directions_[a];
+                for (std::size_t d = 0; d < set.mu.size(); ++d) {
+                    physics::harmonicFactors(degree, set.mu[d], factors.data());
+                    for (int j = 0; j < suns; ++j) {
+                        const float* values = &radiance[(std::size_t(firstRay_[a] + d) * suns + j) * azimuths * stride];
+                        std::fill(byAzimuth.begin(), byAzimuth.end(), 0.);
+                        for (int k = 0; k < azimuths; ++k)
+                            for (int m = 0; m <= degree; ++m)
+                                for (int w = 0; w < wavelengths; ++w)
+                                    byAzimuth[m * wavelengths + w] += waves[k * (degree + 1) + m] * double(values[k * stride + w]);
+                        double* moments = &sums.moments[(std::size_t(a) * suns + j) * count * wavelengths];
+                        for (int l = 0; l <= degree; ++l)
+                            for (int m = 0; m <= l; ++m) {
+                                const double y = set.weight[d] * factors[harmonicIndex(l, m)];
+                                for (int w = 0; w < wavelengths; ++w)
+                                    moments[harmonicIndex(l, m) * wavelengths + w] += y * byAzimuth[m * wavelengths + w];
+                            }
+                        if (set.mu[d] > 0)
+                            for (int w = 0; w < wavelengths; ++w)
+                                sums.irradiance[(std::size_t(a) * suns + j) * wavelengths + w] +=
+                                    set.weight[d] * set.mu[d] * byAzimuth[w];
+                    }
+                }
+            }
+        });
+        for (std::size_t i = 0; i < sums.moments.size(); ++i)
+            if (!std::isfinite(sums.moments[i]))
+                throw NumericsError("moments: the value at altitude level " + std::to_string(i / (std::size_t(suns) * count * wavelengths)) +
+                                    ", Sun " + std::to_string(i / (std::size_t(count) * wavelengths) % suns) +
+                                    ", harmonic " + std::to_string(i / wavelengths % count) + ", wavelength " +
+                                    std::to_string(i % wavelengths) + " is not finite. This is an error of calcmysky or of the "
+                                    "OpenGL driver; try another one with --device or --gl.");
+        return sums;
+    }
+
+    gl::Api api_;
+    const Scene scene_;
+    const physics::MomentGrid& grid_;
+    const physics::MomentSettings& settings_;
+    std::vector<int> firstRay_;
+    std::vector<physics::Directions> directions_;
+    std::vector<RayStart> starts_;
+    SunSamples samples_;
+    gl::Buffer results_;
+    std::optional<ScatteredRays> rays_;
+    std::optional<ScatteredGather> gather_;
+};
+
+void add(std::vector<double>& to, const std::vector<double>& what, double factor = 1)
+{
+    for (std::size_t i = 0; i < to.size(); ++i)
+        to[i] += factor * what[i];
+}
+
+/// Largest ratio of what the last event added to the sum, over wavelengths and levels, for Suns that give daylight.
+double share(const Sums& last, const Sums& total, int harmonics, int wavelengths)
+{
+    double largest = 0, brightest = 0;
+    for (std::size_t i = 0; i < total.moments.size(); i += std::size_t(harmonics) * wavelengths)
+        for (int w = 0; w < wavelengths; ++w)
+            brightest = std::max(brightest, total.moments[i + w]);
+    for (std::size_t i = 0; i < total.moments.size(); i += std::size_t(harmonics) * wavelengths)
+        for (int w = 0; w < wavelengths; ++w)
+            if (total.moments[i + w] > 1e-7 * brightest)
+                largest = std::max(largest, last.moments[i + w] / total.moments[i + w]);
+    return largest;
+}
+
+} // namespace
+
+RadiationField iterate(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid,
+                       const physics::MomentSettings& settings, const OrderLimit& limit, bool keepEvents,
+                       const std::function<void(double)>& breath)
+{
+    const int wanted = limit.all ? mostEvents : limit.orders - 1;
+    const int harmonics = harmonicCount(settings.degree), wavelengths = scene.optics.wavelengths;
+    RadiationField field;
+    const auto fractionOf = [&](int event) { return limit.all ? 1 - std::pow(0.7, event) : double(event) / std::max(1, wanted); };
+
+    Sweeps sweeps(api, scene, grid, settings);
+    Sums last = sweeps.direct([&] { breath(0); });
+    Sums total = last;
+    field.eventCount = 1;
+    field.irradiance.push_back(last.irradiance);
+    if (keepEvents)
+        field.perEvent.push_back(sweeps.toMoments(last));
+    const double tolerance = limit.tolerance > 0 ? limit.tolerance : limit.all ? 1e-3 : 0;
+    for (int event = 2; event <= wanted; ++event) {
+        const Sums before = std::move(last);
+        last = sweeps.scattered(sweeps.toMoments(before), [&] { breath(fractionOf(event - 1)); });
+        add(total.moments, last.moments);
+        add(total.irradiance, last.irradiance);
+        field.eventCount = event;
+        field.irradiance.push_back(last.irradiance);
+        if (keepEvents)
+            field.perEvent.push_back(sweeps.toMoments(last));
+        if (!(tolerance > 0))
+            continue;
+        // Events die out as a geometric series once the slowest mode is left: what is still to come is last r / (1 - r).
+        const double added = share(last, total, harmonics, wavelengths);
+        if (added < tolerance || event == wanted) {
+            if (limit.all)
+                for (std::size_t i = 0; i < total.moments.size(); i += std::size_t(harmonics) * wavelengths)
+                    for (int w = 0; w < wavelengths; ++w) {
+                        const double earlier = before.moments[i + w];
+                        const double ratio = earlier > 0 ? std::clamp(last.moments[i + w] / earlier, 0., 0.999) : 0.;
+                        for (int lm = 0; lm < harmonics; ++lm)
+                            total.moments[i + lm * wavelengths + w] += ratio / (1 - ratio) * last.moments[i + lm * wavelengths + w];
+                    }
+            if (limit.all)
+                for (std::size_t i = 0; i < total.irradiance.size(); ++i) {
+                    const double ratio = before.irradiance[i] > 0 ? std::clamp(last.irradiance[i] / before.irradiance[i], 0., 0.999) : 0.;
+                    total.irradiance[i] += ratio / (1 - ratio) * last.irradiance[i];
+                }
+            field.remainder = added;
+            break;
+        }
+    }
+    field.total = sweeps.toMoments(total);
+    breath(1);
+    return field;
+}
+
+} // namespace sky::solver

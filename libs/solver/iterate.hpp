@@ -1,0 +1,32 @@
+#pragma once
+#include "physics/directions.hpp"
+#include "solver/gather.hpp"
+#include <vector>
+
+namespace sky::solver {
+
+/// When the iteration ends.
+struct OrderLimit {
+    int orders = 4;          ///< of the light that is to be seen: the field needs one event less
+    bool all = false;        ///< go on until an order adds less than `tolerance`, then close the series
+    double tolerance = 0;    ///< relative; 0: exactly `orders`
+};
+
+/// The converged radiation field and what it cost.
+struct RadiationField {
+    physics::Moments total;           ///< events 1 .. eventCount
+    std::vector<physics::Moments> perEvent; ///< kept on request, as total
+    std::vector<std::vector<double>> irradiance; ///< [event - 1]: [altitude][sun][wavelength], downward, unit solar irradiance
+    int eventCount = 0;
+    double remainder = 0;             ///< estimated relative share of what was cut off, largest over wavelengths at the ground by day
+};
+
+/// Source iteration for the radiance moments (docs/method): each sweep gathers, for every level, Sun and direction, the light
+/// that the last event's field scatters or reflects into that ray, and projects it onto the harmonics.
+///   breath  called between dispatches with the fraction of the sweeps done so far
+///   throws  NumericsError where a value is not finite
+RadiationField iterate(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid,
+                       const physics::MomentSettings& settings, const OrderLimit& limit, bool keepEvents,
+                       const std::function<void(double)>& breath);
+
+} // namespace sky::solver

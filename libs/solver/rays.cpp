@@ -1,0 +1,164 @@
+#include "solver/rays.hpp"
+#include "base/parallel.hpp"
+#include "physics/harmonics.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace sky::solver {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+/// A buffer must not be empty: OpenGL has no views of nothing.
+std::vector<float> orOneTexel(std::vector<float> values)
+{
+    if (values.empty())
+        values.assign(4, 0.F);
+    return values;
+}
+
+void putNode(float* to, const physics::RayNodes::Node& node, double flag)
+{
+    to[0] = static_cast<float>(node.sunScale);
+    to[1] = static_cast<float>(node.nuScale);
+    to[2] = static_cast<float>(node.mu);
+    to[3] = static_cast<float>(flag);
+}
+
+std::vector<float> groundTexels(const Scene& scene, const std::vector<physics::RayNodes>& rays)
+{
+    std::vector<float> values(rays.size() * scene.sets() * 4, 0.F);
+    for (std::size_t r = 0; r < rays.size(); ++r)
+        for (int w = 0; w < scene.optics.wavelengths; ++w)
+            values[r * scene.sets() * 4 + w] =
+                static_cast<float>(rays[r].groundTransmittance[w] * scene.medium.groundAlbedo[w] / pi);
+    return values;
+}
+
+} // namespace
+
+TexelBuffer::TexelBuffer(const gl::Api& api, const std::string& label, const std::vector<float>& values, int components)
+    : buffer(api, label, orOneTexel(values)), texture(api, label, buffer, components)
+{
+}
+
+TexelBuffer::TexelBuffer(const gl::Api& api, const std::string& label, std::size_t vec4s)
+    : buffer(api, label, vec4s * 4 * sizeof(float)), texture(api, label, buffer)
+{
+}
+
+std::vector<physics::RayNodes> traceRays(const Scene& scene, const std::vector<RayStart>& starts, int nodes)
+{
+    std::vector<physics::RayNodes> rays(starts.size());
+    base::parallel([&](int thread, int threads) {
+        physics::RayTracer tracer(scene.profile, scene.optics);
+        for (std::size_t i = thread; i < starts.size(); i += threads)
+            rays[i] = tracer.trace(starts[i].altitude, starts[i].mu, nodes, starts[i].hitsGround);
+    });
+    return rays;
+}
+
+struct DirectRays::Data {
+    std::vector<float> nodes, weights, ground;
+    Data(const Scene& scene, const std::vector<RayStart>& starts, int nodeCount);
+};
+
+DirectRays::Data::Data(const Scene& scene, const std::vector<RayStart>& starts, int nodeCount)
+{
+    const auto rays = traceRays(scene, starts, nodeCount);
+    const int sets = scene.sets(), scatterers = scene.scatterers(), wavelengths = scene.optics.wavelengths;
+    const auto& altitudes = scene.sun.altitudes();
+    nodes.resize(rays.size() * (nodeCount + 1) * 8);
+    weights.resize(rays.size() * nodeCount * scatterers * sets * 4);
+    for (std::size_t r = 0; r < rays.size(); ++r) {
+        const auto& ray = rays[r];
+        for (int k = 0; k <= nodeCount; ++k) {
+            const auto& node = k < nodeCount ? ray.nodes[k] : ray.ground;
+            const double h = k < nodeCount ? node.altitude : 0;
+            float* to = &nodes[(r * (nodeCount + 1) + k) * 8];
+            putNode(to, node, ray.hitsGround ? 1 : 0);
+            const double horizon = physics::horizonElevation(scene.profile.planet(), h);
+            const std::size_t row = std::clamp<std::size_t>(
+                std::upper_bound(altitudes.begin(), altitudes.end(), h) - altitudes.begin(), 1, altitudes.size() - 1) - 1;
+            to[4] = static_cast<float>(horizon);
+            to[5] = static_cast<float>(1 / std::asinh((pi / 2 - horizon + scene.medium.sunAngularRadius) /
+                                                      physics::SunTable::elevationScale));
+            to[6] = static_cast<float>(row);
+            to[7] = static_cast<float>(std::clamp((h - altitudes[row]) / (altitudes[row + 1] - altitudes[row]), 0., 1.));
+        }
+        for (int k = 0; k < nodeCount; ++k)
+            for (int i = 0; i < scatterers; ++i)
+                for (int w = 0; w < wavelengths; ++w)
+                    weights[((r * nodeCount + k) * scatterers + i) * sets * 4 + w] =
+                        static_cast<float>(ray.weights[(k * scatterers + i) * wavelengths + w]);
+    }
+    ground = groundTexels(scene, rays);
+}
+
+DirectRays::DirectRays(const gl::Api& api, const Data& data, int rays, int nodeCount)
+    : count(rays), nodes(nodeCount), rayNodes(api, "direct ray nodes", data.nodes), weights(api, "direct weights", data.weights),
+      ground(api, "direct ground", data.ground)
+{
+}
+
+DirectRays::DirectRays(const gl::Api& api, const Scene& scene, const std::vector<RayStart>& starts, int nodeCount)
+    : DirectRays(api, Data(scene, starts, nodeCount), static_cast<int>(starts.size()), nodeCount)
+{
+}
+
+struct ScatteredRays::Data {
+    std::vector<float> nodes, stencils, coefficients, factors, ground;
+    Data(const Scene& scene, const physics::MomentGrid& grid, const std::vector<RayStart>& starts, int nodeCount);
+};
+
+ScatteredRays::Data::Data(const Scene& scene, const physics::MomentGrid& grid, const std::vector<RayStart>& starts, int nodeCount)
+{
+    const auto rays = traceRays(scene, starts, nodeCount);
+    const auto& optics = scene.optics;
+    const int sets = scene.sets(), scatterers = scene.scatterers(), wavelengths = optics.wavelengths;
+    const int terms = optics.degree + 1, harmonics = physics::harmonicCount(optics.degree);
+    nodes.resize(rays.size() * (nodeCount + 1) * 4);
+    stencils.resize(rays.size() * nodeCount * 8);
+    coefficients.resize(rays.size() * nodeCount * terms * sets * 4);
+    factors.resize(rays.size() * nodeCount * harmonics);
+    std::vector<double> zenithal(harmonics);
+    for (std::size_t r = 0; r < rays.size(); ++r) {
+        const auto& ray = rays[r];
+        putNode(&nodes[(r * (nodeCount + 1) + nodeCount) * 4], ray.ground, ray.hitsGround ? 1 : 0);
+        for (int k = 0; k < nodeCount; ++k) {
+            const std::size_t at = r * nodeCount + k;
+            putNode(&nodes[(r * (nodeCount + 1) + k) * 4], ray.nodes[k], 0);
+            const auto stencil = grid.altitudeStencil(ray.nodes[k].altitude);
+            for (int i = 0; i < 4; ++i) {
+                stencils[at * 8 + i] = static_cast<float>(stencil.index[i]);
+                stencils[at * 8 + 4 + i] = static_cast<float>(stencil.weight[i]);
+            }
+            physics::harmonicFactors(optics.degree, ray.nodes[k].mu, zenithal.data());
+            for (int lm = 0; lm < harmonics; ++lm)
+                factors[at * harmonics + lm] = static_cast<float>(zenithal[lm]);
+            for (int i = 0; i < scatterers; ++i)
+                for (int l = 0; l < terms; ++l)
+                    for (int w = 0; w < wavelengths; ++w)
+                        coefficients[(at * terms + l) * sets * 4 + w] +=
+                            static_cast<float>(ray.weights[(k * scatterers + i) * wavelengths + w] *
+                                               optics.moment(optics.scatterers[i], l, w));
+        }
+    }
+    ground = groundTexels(scene, rays);
+}
+
+ScatteredRays::ScatteredRays(const gl::Api& api, const Data& data, int rays, int nodeCount)
+    : count(rays), nodes(nodeCount), rayNodes(api, "scattered ray nodes", data.nodes),
+      altitudeStencils(api, "altitude stencils", data.stencils), coefficients(api, "scattered coefficients", data.coefficients),
+      factors(api, "harmonic factors", data.factors, 1), ground(api, "scattered ground", data.ground)
+{
+}
+
+ScatteredRays::ScatteredRays(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid,
+                             const std::vector<RayStart>& starts, int nodeCount)
+    : ScatteredRays(api, Data(scene, grid, starts, nodeCount), static_cast<int>(starts.size()), nodeCount)
+{
+}
+
+} // namespace sky::solver

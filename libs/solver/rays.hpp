@@ -1,0 +1,70 @@
+#pragma once
+// Rays as the gather shaders read them. Geometry, density and transmittance are integrated here, in double (physics/ray.hpp);
+// the GPU meets nodes and weights only, so nothing of planet scale is ever computed in float32.
+
+#include "gl/buffer_texture.hpp"
+#include "physics/moments.hpp"
+#include "physics/ray.hpp"
+#include "physics/sun.hpp"
+#include <vector>
+
+namespace sky::solver {
+
+/// Where a ray starts and how it counts.
+struct RayStart {
+    double altitude; ///< m
+    double mu;
+    bool hitsGround;
+};
+
+/// A storage buffer and its view as texels.
+struct TexelBuffer {
+    gl::Buffer buffer;
+    gl::BufferTexture texture;
+    TexelBuffer(const gl::Api& api, const std::string& label, const std::vector<float>& values, int components = 4);
+    TexelBuffer(const gl::Api& api, const std::string& label, std::size_t vec4s);
+};
+
+/// Everything rays are traced through; wavelengths in sets of four, the last padded.
+struct Scene {
+    const physics::Medium& medium;
+    const physics::Profile& profile;
+    const physics::Optics& optics;
+    const physics::SunTable& sun;
+    int sets() const { return (optics.wavelengths + 3) / 4; }
+    int scatterers() const { return static_cast<int>(optics.scatterers.size()); }
+};
+
+/// Traces rays on all cores.
+std::vector<physics::RayNodes> traceRays(const Scene& scene, const std::vector<RayStart>& starts, int nodes);
+
+/// Rays for the light of the first event (direct.comp).
+struct DirectRays {
+    int count, nodes;
+    TexelBuffer rayNodes; ///< [ray][node + ground][2]: sunScale, nuScale, mu, hits ground; horizon, inverse range, row, fraction
+    TexelBuffer weights;  ///< [ray][node][scatterer][set]
+    TexelBuffer ground;   ///< [ray][set]
+    DirectRays(const gl::Api& api, const Scene& scene, const std::vector<RayStart>& starts, int nodes);
+
+private:
+    struct Data;
+    DirectRays(const gl::Api& api, const Data& data, int rays, int nodes);
+};
+
+/// Rays for the light of later events (prepare.comp, scattered.comp).
+struct ScatteredRays {
+    int count, nodes;
+    TexelBuffer rayNodes;         ///< [ray][node + ground]: sunScale, nuScale, mu, hits ground
+    TexelBuffer altitudeStencils; ///< [ray][node][2]
+    TexelBuffer coefficients;     ///< [ray][node][l][set]
+    TexelBuffer factors;          ///< [ray][node][lm], floats
+    TexelBuffer ground;           ///< [ray][set]
+    ScatteredRays(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid, const std::vector<RayStart>& starts,
+                  int nodes);
+
+private:
+    struct Data;
+    ScatteredRays(const gl::Api& api, const Data& data, int rays, int nodes);
+};
+
+} // namespace sky::solver

@@ -1,1 +1,0 @@
-float placeholder() { return 0.0; }

@@ -1,0 +1,43 @@
+// Direct sunlight at a point: visible part of the disc, and the coordinates of the tables over the Sun's elevation.
+// Twins in double precision: libs/physics/geometry.hpp, sun.hpp, moments.hpp.
+
+#include "lib/angles.glsl"
+
+// Fraction of a uniform disc of angular radius `radius` above a straight edge; its centre stands `above` over it (rad).
+// Area of a circular segment. A Sun without extent is a step.
+float visibleDiscFraction(float above, float radius)
+{
+    if (above >= radius)
+        return 1.0;
+    if (above <= -radius)
+        return 0.0;
+    float x = above / radius;
+    return clamp(0.5 + (x * sqrt(max(0.0, 1.0 - x * x)) + elevationOf(x)) / (2.0 * halfPi), 0.0, 1.0);
+}
+
+// Scale of the elevation axis of the table of sunlight, rad; physics::SunTable::elevationScale.
+const float sunAxisScale = 0.03;
+
+// Position 0..1 on that axis. `inverseRange` is 1 / asinh(range / scale), range = pi/2 - horizon + radius.
+float sunAxis(float elevation, float horizon, float radius, float inverseRange)
+{
+    float x = max(0.0, elevation - horizon + radius);
+    return min(1.0, inverseSinh(x / sunAxisScale) * inverseRange);
+}
+
+// Position on the elevation axis of the moments, 0..1: e = (pi/2) sinh(3 v) / sinh 3, v from vLowest to 1.
+float momentAxis(float elevation, float vLowest)
+{
+    float v = inverseSinh(elevation * (10.0178749274 / halfPi)) / 3.0;
+    return clamp((v - vLowest) / (1.0 - vLowest), 0.0, 1.0);
+}
+
+// Mean cosine of the visible part of the disc on a horizontal surface at the ground: the centroid of the segment that shows.
+float horizontalSunCosine(float muSun, float elevation, float radius)
+{
+    if (abs(elevation) >= radius)
+        return max(muSun, 0.0);
+    float x = elevation / radius, area = 2.0 * halfPi * visibleDiscFraction(elevation, radius);
+    float lift = x < -0.99 ? 0.0 : radius * (2.0 / 3.0) * pow(max(0.0, 1.0 - x * x), 1.5) / max(area, 1e-6);
+    return max(0.0, elevation + lift);
+}

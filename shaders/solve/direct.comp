@@ -1,0 +1,99 @@
+// Direct sunlight scattered once along each ray, for each Sun and azimuth:  sum over nodes of w_ki T_sun(node k).
+// FIELD: all species together, phase functions cut at DEGREE, and the sunlit ground: what starts the source iteration.
+// Otherwise each species apart, without its phase function or (withPhase) with the exact one.
+#include "solve/rays.glsl"
+#include "lib/sun.glsl"
+
+uniform samplerBuffer sunDepths; // [altitude][elevation][set]: optical depth towards the visible part of the Sun
+uniform samplerBuffer weights;   // [ray][node][scatterer][set]
+uniform samplerBuffer ground;    // [ray][set]: transmittance times albedo / pi
+uniform samplerBuffer phases;    // FIELD: [scatterer][l][set], (2l+1)/(4 pi) lambda_l; else [scatterer][angle][set]
+uniform int elevations, angles;
+uniform float sunRadius;
+#ifndef FIELD
+uniform int withPhase[SCATTERERS];
+uniform int resultOffsets[SCATTERERS]; // in texels of the result buffer
+#endif
+
+// Sunlight at a node; `place` is [horizon elevation, inverse range of the elevation axis, table row, fraction of a row].
+void sunlight(float elevation, vec4 place, out vec4 light[SETS])
+{
+    float visible = visibleDiscFraction(elevation - place.x, sunRadius);
+    for (int q = 0; q < SETS; ++q)
+        light[q] = vec4(0.0);
+    if (visible <= 0.0)
+        return;
+    float u = sunAxis(elevation, place.x, sunRadius, place.y) * float(elevations - 1);
+    int k = min(int(u), elevations - 2);
+    float x = u - float(k);
+    int near = (int(place.z) * elevations + k) * SETS, far = near + elevations * SETS;
+    for (int q = 0; q < SETS; ++q) {
+        vec4 below = mix(texelFetch(sunDepths, near + q), texelFetch(sunDepths, near + SETS + q), x);
+        vec4 above = mix(texelFetch(sunDepths, far + q), texelFetch(sunDepths, far + SETS + q), x);
+        light[q] = visible * exp(-mix(below, above, place.w));
+    }
+}
+
+void main()
+{
+    int first = (int(gl_GlobalInvocationID.y) + firstRay) * (nodes + 1) * 2;
+    Sample s = sampleOfInvocation(texelFetch(rayNodes, first).z);
+    if (!s.valid)
+        return;
+    vec4 lit[SCATTERERS * SETS];
+    for (int i = 0; i < SCATTERERS * SETS; ++i)
+        lit[i] = vec4(0.0);
+    vec4 light[SETS];
+    for (int k = 0; k < nodes; ++k) {
+        vec4 node = texelFetch(rayNodes, first + 2 * k);
+        sunlight(elevationOf(clamp(node.x * s.muSun + node.y * s.nu, -1.0, 1.0)), texelFetch(rayNodes, first + 2 * k + 1), light);
+        int w = (s.ray * nodes + k) * SCATTERERS * SETS;
+        for (int i = 0; i < SCATTERERS; ++i)
+            for (int q = 0; q < SETS; ++q)
+                lit[i * SETS + q] += texelFetch(weights, w + i * SETS + q) * light[q];
+    }
+#ifdef FIELD
+    vec4 total[SETS];
+    for (int q = 0; q < SETS; ++q)
+        total[q] = vec4(0.0);
+    for (int i = 0; i < SCATTERERS; ++i) {
+        float p = 1.0, before = 0.0; // Legendre polynomials P_l(nu), P_(l-1)(nu)
+        for (int l = 0; l <= DEGREE; ++l) {
+            for (int q = 0; q < SETS; ++q)
+                total[q] += p * lit[i * SETS + q] * texelFetch(phases, (i * (DEGREE + 1) + l) * SETS + q);
+            float after = (float(2 * l + 1) * s.nu * p - float(l) * before) / float(l + 1);
+            before = p;
+            p = after;
+        }
+    }
+    vec4 node = texelFetch(rayNodes, first + 2 * nodes);
+    if (node.w > 0.0) {
+        float muSun = clamp(node.x * s.muSun + node.y * s.nu, -1.0, 1.0);
+        float elevation = elevationOf(muSun);
+        sunlight(elevation, texelFetch(rayNodes, first + 2 * nodes + 1), light);
+        float cosine = horizontalSunCosine(muSun, elevation, sunRadius);
+        for (int q = 0; q < SETS; ++q)
+            total[q] += texelFetch(ground, s.ray * SETS + q) * cosine * light[q];
+    }
+    for (int q = 0; q < SETS; ++q)
+        results[s.texel * SETS + q] = max(total[q], vec4(0.0)); // a cut series may undershoot
+#else
+    float position = pow(acos(s.nu) / (2.0 * halfPi), 1.0 / 3.0) * float(angles - 1);
+    int angle = min(int(position), angles - 2);
+    for (int i = 0; i < SCATTERERS; ++i) {
+        vec4 radiance[SETS];
+        for (int q = 0; q < SETS; ++q) {
+            radiance[q] = lit[i * SETS + q];
+            int at = (i * angles + angle) * SETS + q;
+            if (withPhase[i] != 0)
+                radiance[q] *= mix(texelFetch(phases, at), texelFetch(phases, at + SETS), position - float(angle));
+        }
+#ifdef LUMINANCE
+        results[resultOffsets[i] + s.texel] = toLuminance(radiance);
+#else
+        for (int q = 0; q < SETS; ++q)
+            results[resultOffsets[i] + s.texel * SETS + q] = radiance[q];
+#endif
+    }
+#endif
+}

@@ -1,0 +1,45 @@
+// What the gathers share: which ray, Sun and azimuth an invocation is for, and where its result goes.
+layout(local_size_x = 64) in;
+
+uniform samplerBuffer sunCosines;     // [suns], cosine of the Sun's zenith angle at the ray's start
+uniform samplerBuffer azimuthCosines; // [azimuths], cos(phi) from the Sun's azimuth
+uniform samplerBuffer rayNodes;
+uniform int suns, azimuths, nodes, firstRay;
+uniform ivec3 strides; // of the result, in texels: ray, sun, azimuth
+layout(std430, binding = 0) writeonly buffer Results { vec4 results[]; };
+
+#ifdef LUMINANCE
+uniform vec4 luminance[4 * SETS]; // one wavelength's X, Y, Z, scotopic for unit radiance, solar irradiance included
+#endif
+
+struct Sample {
+    int ray;      // of the batch
+    float muSun;
+    float nu;
+    int texel;
+    bool valid;
+};
+
+Sample sampleOfInvocation(float rayMu)
+{
+    int item = int(gl_GlobalInvocationID.x), sun = item / azimuths, azimuth = item % azimuths;
+    Sample s;
+    s.valid = sun < suns;
+    s.ray = firstRay + int(gl_GlobalInvocationID.y);
+    s.muSun = texelFetch(sunCosines, min(sun, suns - 1)).x;
+    float c = texelFetch(azimuthCosines, azimuth).x;
+    s.nu = clamp(rayMu * s.muSun + sqrt(max(0.0, (1.0 - rayMu * rayMu) * (1.0 - s.muSun * s.muSun))) * c, -1.0, 1.0);
+    s.texel = s.ray * strides.x + sun * strides.y + azimuth * strides.z;
+    return s;
+}
+
+#ifdef LUMINANCE
+vec4 toLuminance(vec4 radiance[SETS])
+{
+    vec4 sum = vec4(0.0);
+    for (int q = 0; q < SETS; ++q)
+        sum += radiance[q].x * luminance[4 * q] + radiance[q].y * luminance[4 * q + 1] + radiance[q].z * luminance[4 * q + 2]
+             + radiance[q].w * luminance[4 * q + 3];
+    return sum;
+}
+#endif

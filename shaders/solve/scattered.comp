@@ -1,0 +1,55 @@
+// Radiance of light that has been scattered or reflected before, along each ray, for each Sun and azimuth.
+#include "solve/rays.glsl"
+#include "lib/sun.glsl"
+#include "lib/scattered.glsl"
+
+const int terms = DEGREE + 1;
+
+uniform samplerBuffer source; // [ray of this dispatch][node][sun][1 + term][set], from prepare.comp
+uniform int fieldSuns;
+uniform float vLowest;
+
+void main()
+{
+    int first = int(gl_GlobalInvocationID.y) + firstRay;
+    Sample s = sampleOfInvocation(texelFetch(rayNodes, first * (nodes + 1)).z);
+    if (!s.valid)
+        return;
+    // Only a ray that meets the ground has a last node there; rayNodes holds a flag in its w.
+    int count = nodes + (texelFetch(rayNodes, s.ray * (nodes + 1) + nodes).w > 0.0 ? FROM_GROUND : 0);
+
+    vec4 total[SETS];
+    for (int q = 0; q < SETS; ++q)
+        total[q] = vec4(0.0);
+    for (int k = 0; k < count; ++k) {
+        vec4 node = texelFetch(rayNodes, s.ray * (nodes + 1) + k);
+        float muSun = clamp(node.x * s.muSun + node.y * s.nu, -1.0, 1.0);
+        float position = momentAxis(elevationOf(muSun), vLowest) * float(fieldSuns - 1);
+        int sun = min(int(position), fieldSuns - 2);
+        float x = position - float(sun);
+        float c = azimuthCosine(node.z, muSun, s.nu);
+        int at = ((int(gl_GlobalInvocationID.y) * (nodes + 1) + k) * fieldSuns + sun) * (terms + 1) * SETS;
+        const int next = (terms + 1) * SETS;
+        for (int q = 0; q < SETS; ++q) {
+            vec4 level = exp2(mix(texelFetch(source, at + q), texelFetch(source, at + next + q), x));
+            vec4 sum = vec4(0.0);
+            float wave = 1.0, before = c; // cos(m phi), cos((m - 1) phi)
+            for (int m = 0; m < terms; ++m) {
+                int i = at + (m + 1) * SETS + q;
+                sum += wave * mix(texelFetch(source, i), texelFetch(source, i + next), x);
+                float after = 2.0 * c * wave - before;
+                before = wave;
+                wave = after;
+            }
+            total[q] += level * sum;
+        }
+    }
+    for (int q = 0; q < SETS; ++q)
+        total[q] = max(total[q], vec4(0.0)); // a series cut at DEGREE may undershoot beside a bright peak
+#ifdef LUMINANCE
+    results[s.texel] = toLuminance(total);
+#else
+    for (int q = 0; q < SETS; ++q)
+        results[s.texel * SETS + q] = total[q];
+#endif
+}
