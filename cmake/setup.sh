@@ -51,7 +51,7 @@ ensure_packages() {
     fi
     [ "$(id -u)" = 0 ] || sudo -v || exit 1 # asks for the password here, not inside the log
     # shellcheck disable=SC2086 # one word per package
-    step "Installing $missing" install_packages $missing
+    step "Installing ${missing% }" install_packages $missing
 }
 
 # build PRESET [target...]: configures where needed and builds.
