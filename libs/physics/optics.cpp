@@ -4,6 +4,22 @@
 
 namespace sky::physics {
 
+namespace {
+
+/// Scattering optical depth of truncated light, along the vertical, from which scaling pays. Below it, leaving the series cut and
+/// the optical depths alone is the more accurate (docs/accuracy).
+constexpr double truncationMatters = 0.1;
+
+double column(const Medium& medium, const Species& species)
+{
+    double sum = 0;
+    for (std::size_t k = 0; k + 1 < medium.altitudes.size(); ++k)
+        sum += 0.5 * (species.numberDensity[k] + species.numberDensity[k + 1]) * (medium.altitudes[k + 1] - medium.altitudes[k]);
+    return sum;
+}
+
+} // namespace
+
 Optics makeOptics(const Medium& medium, const int degree, const bool truncate)
 {
     const int wavelengths = medium.wavelengthCount();
@@ -19,6 +35,7 @@ Optics makeOptics(const Medium& medium, const int degree, const bool truncate)
         const auto& species = medium.species[s];
         bool scatters = false;
         std::vector<double> moments;
+        const double particles = column(medium, species);
         for (int w = 0; w < wavelengths; ++w) {
             const double sigma = species.extinctionCrossSection[w];
             const double sigmaScattering = species.scatters() ? sigma * species.singleScatteringAlbedo[w] : 0;
@@ -29,9 +46,8 @@ Optics makeOptics(const Medium& medium, const int degree, const bool truncate)
             } else {
                 moments.assign(degree + 2, 0);
             }
-            // The peak must not be truncated below what a positive phase function needs, nor where it is negligible.
             const double share = std::clamp(moments[degree + 1], 0., 0.999);
-            const double f = truncate && share > 1e-3 ? share : 0;
+            const double f = truncate && share * sigmaScattering * particles > truncationMatters ? share : 0;
             optics.truncation[s * wavelengths + w] = f;
             optics.extinction[s * wavelengths + w] = sigma - f * sigmaScattering;
             optics.scattering[s * wavelengths + w] = (1 - f) * sigmaScattering;

@@ -22,7 +22,7 @@ struct Optics {
 };
 
 /// Optics of `medium` for harmonics up to `degree`.
-///   truncate  scale where f = lambda_{degree+1} is worth it (f > 1e-3); false: plain truncation of the series
+///   truncate  scale with f = lambda_{degree+1} where that much light matters; false: the series is only cut
 Optics makeOptics(const Medium& medium, int degree, bool truncate);
 
 } // namespace sky::physics

@@ -119,9 +119,9 @@ void SunTable::transmittance(const double altitude, const double muSun, double* 
     }
 }
 
-void SunTable::groundIrradiance(const double muSun, double* const result) const
+void SunTable::horizontalIrradiance(const double altitude, const double muSun, double* const result) const
 {
-    transmittance(0, muSun, result);
+    transmittance(altitude, muSun, result);
     // Mean cosine over the visible part of the disc, to first order in its radius: the centroid of a circular segment.
     const double elevation = std::asin(std::clamp(muSun, -1., 1.));
     double cosine = std::max(muSun, 0.);
@@ -129,6 +129,9 @@ void SunTable::groundIrradiance(const double muSun, double* const result) const
         const double x = elevation / sunRadius_, area = pi * visibleDiscFraction(elevation, sunRadius_);
         const double lift = x < -0.99 ? 0 : sunRadius_ * 2. / 3. * std::pow(1 - x * x, 1.5) / area;
         cosine = std::max(0., elevation + lift);
+        // The transmittance counts what the horizon leaves of the disc; a surface up in the air loses what is below its plane.
+        const double visible = visibleDiscFraction(elevation - horizonElevation(planet_, altitude), sunRadius_);
+        cosine *= visible > 0 ? visibleDiscFraction(elevation, sunRadius_) / visible : 0;
     }
     for (int w = 0; w < wavelengths_; ++w)
         result[w] *= cosine;

@@ -27,8 +27,8 @@ public:
 
     /// Transmitted share of sunlight, [wavelength], 0..1, disc averaged, horizon included.
     void transmittance(double altitude, double muSun, double* result) const;
-    /// Irradiance of a horizontal surface by the direct Sun per unit irradiance outside, [wavelength], at the ground.
-    void groundIrradiance(double muSun, double* result) const;
+    /// Irradiance of a horizontal surface by the direct Sun per unit irradiance outside, [wavelength].
+    void horizontalIrradiance(double altitude, double muSun, double* result) const;
 
     /// Position on the elevation axis, 0..1, for a Sun at `elevation` over a horizon at `horizon` (rad).
     double axis(double elevation, double horizon) const;

@@ -73,17 +73,19 @@ std::vector<float> phaseTexels(const Scene& scene, bool field)
             for (int w = 0; w < wavelengths; ++w)
                 values[(i * rows + row) * sets * 4 + w] = static_cast<float>(
                     field ? (2. * double(row) + 1) / (4 * pi) * scene.optics.moment(s, static_cast<int>(row), w)
-                          : scene.medium.species[s].phaseFunction[row * wavelengths + w] /
-                                (1 - scene.optics.truncation[s * wavelengths + w]));
+                          : scene.medium.species[s].phaseFunction[row * wavelengths + w]);
     }
     return values;
 }
 
-std::vector<gl::Define> directDefines(const Scene& scene, bool field, const std::vector<std::array<double, 4>>& luminance)
+std::vector<gl::Define> directDefines(const Scene& scene, DirectGather::Purpose purpose,
+                                      const std::vector<std::array<double, 4>>& luminance)
 {
     auto defines = definesOf(scene, luminance);
-    if (field)
+    if (purpose != DirectGather::Purpose::table)
         defines.push_back({"FIELD", "1"});
+    if (purpose == DirectGather::Purpose::groundField)
+        defines.push_back({"GROUND_ONLY", "1"});
     return defines;
 }
 
@@ -95,12 +97,12 @@ SunSamples::SunSamples(const gl::Api& api, const std::vector<float>& sunValues, 
 {
 }
 
-DirectGather::DirectGather(const gl::Api& api, const Scene& scene, bool field,
+DirectGather::DirectGather(const gl::Api& api, const Scene& scene, Purpose purpose,
                            const std::vector<std::array<double, 4>>& luminance)
-    : api_(api), scene_(scene), field_(field),
+    : api_(api), scene_(scene),
       program_(gl::ProgramBuilder(api, shaders::source)
-                   .compute("direct gather", "solve/direct.comp", directDefines(scene, field, luminance))),
-      sunDepths_(api, "sunlight optical depths", sunDepthTexels(scene)), phases_(api, "phase functions", phaseTexels(scene, field))
+                   .compute("direct gather", "solve/direct.comp", directDefines(scene, purpose, luminance))),
+      sunDepths_(api, "sunlight optical depths", sunDepthTexels(scene)), phases_(api, "phase functions", phaseTexels(scene, purpose != Purpose::table))
 {
     setLuminance(program_, scene, luminance);
 }

@@ -25,12 +25,15 @@ using Breath = std::function<void()>;
 class DirectGather
 {
 public:
-    /// \param field  true: all species together, phase functions cut at the degree, sunlit ground included: starts the
-    ///               iteration. false: each species apart, see gather().
+    enum class Purpose {
+        field,       ///< all species together, phase functions cut at the degree, sunlit ground included: starts the iteration
+        groundField, ///< the sunlit ground alone
+        table        ///< each species apart, see gather()
+    };
     /// \param luminance [wavelength] X, Y, Z, scotopic of unit radiance over unit solar irradiance; empty: spectral results
-    DirectGather(const gl::Api& api, const Scene& scene, bool field, const std::vector<std::array<double, 4>>& luminance);
+    DirectGather(const gl::Api& api, const Scene& scene, Purpose purpose, const std::vector<std::array<double, 4>>& luminance);
 
-    /// Fills `results`. For each scatterer (in the order of Optics::scatterers; one result in all if `field`) a block of
+    /// Fills `results`. For each scatterer (in the order of Optics::scatterers; one result in all for a field) a block of
     /// rays x suns x azimuths texels; a texel is one vec4 of luminance or sets() vec4s of radiance per unit solar irradiance.
     ///   withPhase  [scatterer] multiply by the exact phase function
     void gather(const DirectRays& rays, const SunSamples& samples, Strides strides, const std::vector<bool>& withPhase,
@@ -39,7 +42,6 @@ public:
 private:
     gl::Api api_;
     const Scene scene_;
-    bool field_;
     gl::Program program_;
     TexelBuffer sunDepths_, phases_;
 };

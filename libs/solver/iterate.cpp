@@ -34,10 +34,11 @@ public:
     {
     }
 
-    Sums direct(const Breath& breath)
+    enum class First { all, groundOnly };
+    Sums direct(First which, const Breath& breath)
     {
-        const DirectRays rays(api_, scene_, starts_, settings_.directNodes);
-        DirectGather gather(api_, scene_, true, {});
+        const DirectRays rays(api_, scene_, starts_, settings_.directNodes, true);
+        DirectGather gather(api_, scene_, which == First::all ? DirectGather::Purpose::field : DirectGather::Purpose::groundField, {});
         gather.gather(rays, samples_, strides(), {}, results_, breath);
         return project();
     }
@@ -197,7 +198,9 @@ RadiationField iterate(const gl::Api& api, const Scene& scene, const physics::Mo
     const auto fractionOf = [&](int event) { return limit.all ? 1 - std::pow(0.7, event) : double(event) / std::max(1, wanted); };
 
     Sweeps sweeps(api, scene, grid, settings);
-    Sums last = sweeps.direct([&] { breath(0); });
+    if (keepEvents)
+        field.firstFromGround = sweeps.toMoments(sweeps.direct(Sweeps::First::groundOnly, [&] { breath(0); }));
+    Sums last = sweeps.direct(Sweeps::First::all, [&] { breath(0); });
     Sums total = last;
     field.eventCount = 1;
     field.irradiance.push_back(last.irradiance);

@@ -16,6 +16,7 @@ struct OrderLimit {
 struct RadiationField {
     physics::Moments total;           ///< events 1 .. eventCount
     std::vector<physics::Moments> perEvent; ///< kept on request, as total
+    physics::Moments firstFromGround;       ///< likewise: the part of event 1 that is reflection by the ground
     std::vector<std::vector<double>> irradiance; ///< [event - 1]: [altitude][sun][wavelength], downward, unit solar irradiance
     int eventCount = 0;
     double remainder = 0;             ///< estimated relative share of what was cut off, largest over wavelengths at the ground by day

@@ -61,10 +61,10 @@ std::vector<physics::RayNodes> traceRays(const Scene& scene, const std::vector<R
 
 struct DirectRays::Data {
     std::vector<float> nodes, weights, ground;
-    Data(const Scene& scene, const std::vector<RayStart>& starts, int nodeCount);
+    Data(const Scene& scene, const std::vector<RayStart>& starts, int nodeCount, bool field);
 };
 
-DirectRays::Data::Data(const Scene& scene, const std::vector<RayStart>& starts, int nodeCount)
+DirectRays::Data::Data(const Scene& scene, const std::vector<RayStart>& starts, int nodeCount, bool field)
 {
     const auto rays = traceRays(scene, starts, nodeCount);
     const int sets = scene.sets(), scatterers = scene.scatterers(), wavelengths = scene.optics.wavelengths;
@@ -91,7 +91,8 @@ DirectRays::Data::Data(const Scene& scene, const std::vector<RayStart>& starts, 
             for (int i = 0; i < scatterers; ++i)
                 for (int w = 0; w < wavelengths; ++w)
                     weights[((r * nodeCount + k) * scatterers + i) * sets * 4 + w] =
-                        static_cast<float>(ray.weights[(k * scatterers + i) * wavelengths + w]);
+                        static_cast<float>(ray.weights[(k * scatterers + i) * wavelengths + w] /
+                                           (field ? 1 : 1 - scene.optics.truncation[scene.optics.scatterers[i] * wavelengths + w]));
     }
     ground = groundTexels(scene, rays);
 }
@@ -102,8 +103,9 @@ DirectRays::DirectRays(const gl::Api& api, const Data& data, int rays, int nodeC
 {
 }
 
-DirectRays::DirectRays(const gl::Api& api, const Scene& scene, const std::vector<RayStart>& starts, int nodeCount)
-    : DirectRays(api, Data(scene, starts, nodeCount), static_cast<int>(starts.size()), nodeCount)
+DirectRays::DirectRays(const gl::Api& api, const Scene& scene, const std::vector<RayStart>& starts, int nodeCount,
+                       bool field)
+    : DirectRays(api, Data(scene, starts, nodeCount, field), static_cast<int>(starts.size()), nodeCount)
 {
 }
 

@@ -44,7 +44,9 @@ struct DirectRays {
     TexelBuffer rayNodes; ///< [ray][node + ground][2]: sunScale, nuScale, mu, hits ground; horizon, inverse range, row, fraction
     TexelBuffer weights;  ///< [ray][node][scatterer][set]
     TexelBuffer ground;   ///< [ray][set]
-    DirectRays(const gl::Api& api, const Scene& scene, const std::vector<RayStart>& starts, int nodes);
+    /// \param field weights go with truncated phase functions (source iteration); otherwise with the exact ones, on which
+    ///              optical depths stay scaled: the TMS correction (Nakajima & Tanaka 1988, J. Quant. Spectrosc. 40, 51)
+    DirectRays(const gl::Api& api, const Scene& scene, const std::vector<RayStart>& starts, int nodes, bool field);
 
 private:
     struct Data;

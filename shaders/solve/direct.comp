@@ -1,5 +1,5 @@
 // Direct sunlight scattered once along each ray, for each Sun and azimuth:  sum over nodes of w_ki T_sun(node k).
-// FIELD: all species together, phase functions cut at DEGREE, and the sunlit ground: what starts the source iteration.
+// FIELD (GROUND_ONLY: its second part): all species together, phase functions cut at DEGREE, and the sunlit ground: what starts the source iteration.
 // Otherwise each species apart, without its phase function or (withPhase) with the exact one.
 #include "solve/rays.glsl"
 #include "lib/sun.glsl"
@@ -44,6 +44,7 @@ void main()
     for (int i = 0; i < SCATTERERS * SETS; ++i)
         lit[i] = vec4(0.0);
     vec4 light[SETS];
+#ifndef GROUND_ONLY
     for (int k = 0; k < nodes; ++k) {
         vec4 node = texelFetch(rayNodes, first + 2 * k);
         sunlight(elevationOf(clamp(node.x * s.muSun + node.y * s.nu, -1.0, 1.0)), texelFetch(rayNodes, first + 2 * k + 1), light);
@@ -52,6 +53,7 @@ void main()
             for (int q = 0; q < SETS; ++q)
                 lit[i * SETS + q] += texelFetch(weights, w + i * SETS + q) * light[q];
     }
+#endif
 #ifdef FIELD
     vec4 total[SETS];
     for (int q = 0; q < SETS; ++q)

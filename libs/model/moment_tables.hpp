@@ -1,0 +1,22 @@
+#pragma once
+// The radiance moments in a model: moments.exr, a complete model on its own together with the medium.
+
+#include "model/model.hpp"
+#include "model/writer.hpp"
+#include "physics/moments.hpp"
+#include "physics/optics.hpp"
+#include <string>
+
+namespace sky::model {
+
+/// Writes the tables `name` (moments) and `name`-ground-irradiance.
+void writeMoments(ModelWriter& writer, const std::string& name, const physics::Moments& moments);
+
+/// The moments of a model.   throws ModelError
+physics::Moments readMoments(const Model& model, const std::string& name = "moments");
+
+/// The manifest's settings that readMoments's caller needs to rebuild the optics: degree and whether peaks are truncated.
+void describeOptics(Manifest& manifest, const physics::Optics& optics, bool truncatePeaks);
+physics::Optics readOptics(const Model& model, const physics::Medium& medium);
+
+} // namespace sky::model

@@ -1,0 +1,50 @@
+#include "physics/table_axes.hpp"
+
+namespace sky::physics {
+
+constexpr double pi = 3.14159265358979323846;
+
+std::vector<double> altitudeNodes(const Planet& planet, const int count)
+{
+    std::vector<double> nodes;
+    const double whole = radiusExcessSquared(planet, planet.topOfAtmosphere);
+    for (int i = 0; i < count; ++i) {
+        const double x = count > 1 ? double(i) / (count - 1) : 0, square = whole * x * x;
+        nodes.push_back(square / (std::sqrt(planet.radius * planet.radius + square) + planet.radius));
+    }
+    if (count > 1)
+        nodes.back() = planet.topOfAtmosphere;
+    return nodes;
+}
+
+std::vector<double> horizonAngleNodes(const double range, const int count)
+{
+    std::vector<double> nodes;
+    const double whole = std::asinh(range / horizonAngleScale);
+    for (int i = 0; i < count; ++i)
+        nodes.push_back(horizonAngleScale * std::sinh(whole * i / std::max(1, count - 1)));
+    nodes.back() = range;
+    return nodes;
+}
+
+std::vector<double> viewMuNodes(const Planet& planet, const double altitude, const int count)
+{
+    const double horizon = horizonElevation(planet, altitude);
+    const auto below = horizonAngleNodes(pi / 2 + horizon, count / 2), above = horizonAngleNodes(pi / 2 - horizon, count / 2);
+    std::vector<double> mu;
+    for (int k = count / 2 - 1; k >= 0; --k)
+        mu.push_back(std::max(-1., std::sin(horizon - below[k])));
+    for (int k = 0; k < count / 2; ++k)
+        mu.push_back(std::min(1., std::sin(horizon + above[k])));
+    return mu;
+}
+
+std::vector<double> azimuthNodes(const int count)
+{
+    std::vector<double> nodes;
+    for (int k = 0; k < count; ++k)
+        nodes.push_back(count > 1 ? pi * k / (count - 1) : 0);
+    return nodes;
+}
+
+} // namespace sky::physics

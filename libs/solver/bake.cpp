@@ -1,0 +1,281 @@
+// The 4D tables: one gather per texel of what the description asks for, altitude by altitude.
+
+#include "solver/bake.hpp"
+#include "physics/colour.hpp"
+#include "physics/table_axes.hpp"
+#include <cmath>
+
+namespace sky::solver {
+
+namespace {
+
+/// XYZ and scotopic luminance of unit radiance per unit solar irradiance: colour matching times the solar spectrum.
+std::vector<std::array<double, 4>> luminanceOf(const physics::Medium& medium)
+{
+    auto weights = physics::luminanceWeights(medium.wavelengthsNm);
+    for (std::size_t w = 0; w < weights.size(); ++w)
+        for (double& component : weights[w])
+            component *= medium.solarIrradiance[w];
+    return weights;
+}
+
+model::TableSpec scatteringSpec(const BakeJob& job, const std::string& name, bool luminance, const std::string& quantity)
+{
+    const auto& size = job.description.scatteringSize;
+    model::TableSpec spec;
+    spec.name = name;
+    spec.quantity = quantity;
+    spec.unit = luminance ? "cd m^-2" : "W m^-2 sr^-1 nm^-1";
+    model::Axis view{"viewZenithAngle", "1", {}, {"horizon-halves", {{"scale", physics::horizonAngleScale}}}};
+    for (int k = 0; k < size.viewZenithAngle; ++k) // the share of the way from nadir to horizon, then from horizon to zenith
+        view.nodes.push_back(k);
+    spec.axes = {{"altitude", "m", job.altitudes(), {"horizon-distance", {}}},
+                 {"sunElevation", "rad", job.sunElevations(), {"sinh", {{"scale", physics::MomentGrid::sinhScale}}}},
+                 view,
+                 {"relativeAzimuth", "rad", physics::azimuthNodes(size.dotViewSun), {"uniform", {}}}};
+    spec.rowAxes = 2;
+    spec.channels = luminance ? model::Channels::Luminance : model::Channels::SpectralRadiance;
+    if (!luminance)
+        spec.wavelengthsNm = job.scene.medium.wavelengthsNm;
+    spec.significandBits = job.options.texturePrecisionBits;
+    return spec;
+}
+
+std::vector<RayStart> viewsFrom(const BakeJob& job, double altitude)
+{
+    const auto mu = physics::viewMuNodes(job.scene.profile.planet(), altitude, job.description.scatteringSize.viewZenithAngle);
+    std::vector<RayStart> starts;
+    for (std::size_t k = 0; k < mu.size(); ++k)
+        starts.push_back({altitude, mu[k], k < mu.size() / 2});
+    return starts;
+}
+
+SunSamples samplesOf(const gl::Api& api, const BakeJob& job)
+{
+    std::vector<float> suns, azimuths;
+    for (const double e : job.sunElevations())
+        suns.push_back(static_cast<float>(std::sin(e)));
+    for (const double phi : physics::azimuthNodes(job.description.scatteringSize.dotViewSun))
+        azimuths.push_back(static_cast<float>(std::cos(phi)));
+    return {api, suns, azimuths};
+}
+
+/// [texel][sets * 4] as it came, without the padding of the last set, times the solar spectrum.
+std::vector<float> spectra(const BakeJob& job, const float* values, std::size_t texels)
+{
+    const int wavelengths = job.scene.optics.wavelengths, stride = job.scene.sets() * 4;
+    std::vector<float> result(texels * wavelengths);
+    for (std::size_t t = 0; t < texels; ++t)
+        for (int w = 0; w < wavelengths; ++w)
+            result[t * wavelengths + w] =
+                values[t * stride + w] * static_cast<float>(job.scene.medium.solarIrradiance[w]);
+    return result;
+}
+
+void writeLayer(const BakeJob& job, model::TableWriter table, int layer, bool luminance, const float* values, int suns,
+                std::size_t texels)
+{
+    if (luminance)
+        table.writeRows(layer * suns, suns, values);
+    else
+        table.writeRows(layer * suns, suns, spectra(job, values, texels).data());
+}
+
+} // namespace
+
+std::vector<double> BakeJob::altitudes() const
+{
+    auto all = physics::altitudeNodes(scene.profile.planet(), description.scatteringSize.altitude);
+    if (options.altitudeLayers)
+        all = {all.begin() + options.altitudeLayers->first, all.begin() + options.altitudeLayers->second + 1};
+    return all;
+}
+
+std::vector<double> BakeJob::sunElevations() const
+{
+    const physics::MomentGrid axis(scene.profile.planet(), {0, scene.profile.planet().topOfAtmosphere}, lowestSunElevation,
+                                   description.scatteringSize.sunZenithAngle);
+    std::vector<double> nodes;
+    for (int j = 0; j < axis.sunCount(); ++j)
+        nodes.push_back(axis.sunElevation(j));
+    return nodes;
+}
+
+void bakeSingleScattering(const gl::Api& api, const BakeJob& job, model::ModelWriter& writer,
+                          const std::function<void(double)>& breath)
+{
+    const auto& optics = job.scene.optics;
+    const int scatterers = job.scene.scatterers();
+    if (scatterers == 0)
+        return;
+    // Luminance loses nothing where the phase function is inside or the same at all wavelengths.
+    std::vector<bool> withPhase, luminance;
+    std::vector<model::TableWriter> tables;
+    bool anyLuminance = false, anySpectral = false;
+    for (const int s : optics.scatterers) {
+        const auto& scatterer = job.description.scatterers[s];
+        const bool smooth = scatterer.phaseFunctionType == atmo::PhaseFunctionType::Smooth;
+        const bool achromatic = scatterer.phaseFunctionType == atmo::PhaseFunctionType::Achromatic;
+        withPhase.push_back(smooth);
+        luminance.push_back(!job.options.radiance && (smooth || achromatic));
+        (luminance.back() ? anyLuminance : anySpectral) = true;
+        tables.push_back(writer.table(scatteringSpec(job, "single-scattering/" + scatterer.name, luminance.back(),
+                                                     smooth ? "single scattering, phase function included"
+                                                            : "single scattering, to be multiplied by the phase function")));
+    }
+    std::optional<DirectGather> asLuminance, asSpectra;
+    if (anyLuminance)
+        asLuminance.emplace(api, job.scene, DirectGather::Purpose::table, luminanceOf(job.scene.medium));
+    if (anySpectral)
+        asSpectra.emplace(api, job.scene, DirectGather::Purpose::table, std::vector<std::array<double, 4>>{});
+
+    const SunSamples samples = samplesOf(api, job);
+    const auto altitudes = job.altitudes();
+    const int views = job.description.scatteringSize.viewZenithAngle;
+    const std::size_t texels = std::size_t(views) * samples.suns * samples.azimuths;
+    const Strides strides{samples.azimuths, views * samples.azimuths, 1};
+    gl::Buffer results(api, "single scattering",
+                       texels * scatterers * 4 * sizeof(float) * (anySpectral ? job.scene.sets() : 1));
+    for (std::size_t layer = 0; layer < altitudes.size(); ++layer) {
+        const auto fraction = [&] { breath(double(layer) / double(altitudes.size())); };
+        const DirectRays rays(api, job.scene, viewsFrom(job, altitudes[layer]), job.settings.directNodes, false);
+        const auto gather = [&](DirectGather& with, bool asLuminanceToo) {
+            with.gather(rays, samples, strides, withPhase, results, fraction);
+            const auto values = results.download();
+            const std::size_t texel = asLuminanceToo ? 4 : std::size_t(job.scene.sets()) * 4;
+            for (int i = 0; i < scatterers; ++i)
+                if (luminance[i] == asLuminanceToo)
+                    writeLayer(job, tables[i], static_cast<int>(layer), asLuminanceToo, &values[i * texels * texel], samples.suns,
+                               texels);
+        };
+        if (asLuminance)
+            gather(*asLuminance, true);
+        if (asSpectra)
+            gather(*asSpectra, false);
+    }
+    breath(1);
+}
+
+void bakeMultipleScattering(const gl::Api& api, const BakeJob& job, const physics::Moments& field, const std::string& name,
+                            model::ModelWriter& writer, const std::function<void(double)>& breath)
+{
+    const bool luminance = !job.options.radiance;
+    auto table = writer.table(scatteringSpec(job, name, luminance, "multiple scattering"));
+    ScatteredGather gather(api, job.scene, false,
+                           luminance ? luminanceOf(job.scene.medium) : std::vector<std::array<double, 4>>{});
+    const FieldTexels texelsOfField(api, field, job.settings.refinement);
+    const SunSamples samples = samplesOf(api, job);
+    const auto altitudes = job.altitudes();
+    const int views = job.description.scatteringSize.viewZenithAngle;
+    const std::size_t texels = std::size_t(views) * samples.suns * samples.azimuths;
+    const Strides strides{samples.azimuths, views * samples.azimuths, 1};
+    gl::Buffer results(api, "multiple scattering", texels * 4 * sizeof(float) * (luminance ? 1 : job.scene.sets()));
+    for (std::size_t layer = 0; layer < altitudes.size(); ++layer) {
+        const ScatteredRays rays(api, job.scene, field.grid, viewsFrom(job, altitudes[layer]), job.settings.nodes);
+        gather.gather(rays, texelsOfField, samples, strides, results,
+                      [&] { breath(double(layer) / double(altitudes.size())); });
+        writeLayer(job, table, static_cast<int>(layer), luminance, results.download().data(), samples.suns, texels);
+    }
+    breath(1);
+}
+
+void bakeTransmittance(const BakeJob& job, model::ModelWriter& writer)
+{
+    const auto& size = job.description.transmittanceSize;
+    const auto& planet = job.scene.profile.planet();
+    const auto& medium = job.scene.medium;
+    // True extinction: what delta-M scaling took from it is light that goes straight on only inside the solver.
+    model::TableSpec spec;
+    spec.name = "transmittance";
+    spec.quantity = "transmittance from the altitude to space, above the horizon";
+    spec.unit = "1";
+    spec.channels = model::Channels::SpectralDimensionless;
+    spec.wavelengthsNm = medium.wavelengthsNm;
+    model::Axis view{"viewZenithAngle", "1", {}, {"horizon-upper-half", {{"scale", physics::horizonAngleScale}}}};
+    for (int k = 0; k < size.zenithAngle; ++k)
+        view.nodes.push_back(k);
+    const auto altitudes = physics::altitudeNodes(planet, size.altitude);
+    spec.axes = {{"altitude", "m", altitudes, {"horizon-distance", {}}}, view};
+    std::vector<float> values;
+    physics::RayTracer tracer(job.scene.profile, job.scene.optics);
+    std::vector<double> columns(medium.species.size());
+    for (const double h : altitudes) {
+        const double horizon = physics::horizonElevation(planet, h);
+        for (const double x : physics::horizonAngleNodes(std::acos(-1.) / 2 - horizon, size.zenithAngle)) {
+            tracer.columns(h, std::min(1., std::sin(horizon + x)), columns.data());
+            for (int w = 0; w < medium.wavelengthCount(); ++w) {
+                double depth = 0;
+                for (std::size_t s = 0; s < columns.size(); ++s)
+                    depth += columns[s] * medium.species[s].extinctionCrossSection[w];
+                values.push_back(static_cast<float>(std::exp(-depth)));
+            }
+        }
+    }
+    writer.table(spec, values);
+}
+
+void bakeIrradiance(const BakeJob& job, const RadiationField* field, bool perEvent, model::ModelWriter& writer)
+{
+    const auto& size = job.description.irradianceSize;
+    const auto& planet = job.scene.profile.planet();
+    const auto& medium = job.scene.medium;
+    const int wavelengths = medium.wavelengthCount();
+    const auto altitudes = physics::altitudeNodes(planet, size.altitude);
+    const physics::MomentGrid axis(planet, {0, planet.topOfAtmosphere}, job.lowestSunElevation, size.zenithAngle);
+    model::TableSpec spec;
+    spec.unit = "W m^-2 nm^-1";
+    spec.channels = model::Channels::SpectralDimensionless;
+    spec.wavelengthsNm = medium.wavelengthsNm;
+    model::Axis sun{"sunElevation", "rad", {}, {"sinh", {{"scale", physics::MomentGrid::sinhScale}}}};
+    for (int j = 0; j < axis.sunCount(); ++j)
+        sun.nodes.push_back(axis.sunElevation(j));
+    spec.axes = {{"altitude", "m", altitudes, {"horizon-distance", {}}}, sun};
+
+    std::vector<float> direct;
+    std::vector<double> light(wavelengths);
+    for (const double h : altitudes)
+        for (const double e : sun.nodes) {
+            job.scene.sun.horizontalIrradiance(h, std::sin(e), light.data());
+            for (int w = 0; w < wavelengths; ++w)
+                direct.push_back(static_cast<float>(light[w] * medium.solarIrradiance[w]));
+        }
+    spec.name = "irradiance-direct";
+    spec.quantity = "downward irradiance of a horizontal surface by the Sun alone";
+    writer.table(spec, direct);
+    if (!field)
+        return;
+
+    const auto write = [&](const std::vector<double>& grid, const std::string& name, const std::string& quantity) {
+        const auto& from = field->total.grid;
+        std::vector<float> values;
+        for (const double h : altitudes) {
+            const auto a = from.altitudeStencil(h);
+            for (const double e : sun.nodes) {
+                const auto b = from.sunStencil(from.sunPosition(e));
+                for (int w = 0; w < wavelengths; ++w) {
+                    double logarithm = 0;
+                    for (int i = 0; i < 4; ++i)
+                        for (int j = 0; j < 4; ++j)
+                            logarithm += a.weight[i] * b.weight[j] *
+                                         std::log(std::max(grid[(std::size_t(a.index[i]) * from.sunCount() + b.index[j]) * wavelengths + w],
+                                                           physics::darkness));
+                    values.push_back(static_cast<float>(std::exp(logarithm) * medium.solarIrradiance[w]));
+                }
+            }
+        }
+        spec.name = name;
+        spec.quantity = quantity;
+        writer.table(spec, values);
+    };
+    std::vector<double> sum(field->irradiance.front().size(), 0.);
+    for (std::size_t event = 0; event < field->irradiance.size(); ++event) {
+        for (std::size_t i = 0; i < sum.size(); ++i)
+            sum[i] += field->irradiance[event][i];
+        if (perEvent)
+            write(field->irradiance[event], "irradiance-order-" + std::to_string(event + 1),
+                  "downward irradiance of a horizontal surface by light of order " + std::to_string(event + 1));
+    }
+    write(sum, "irradiance-diffuse", "downward irradiance of a horizontal surface by the sky");
+}
+
+} // namespace sky::solver

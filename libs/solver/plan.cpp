@@ -1,0 +1,123 @@
+#include "solver/plan.hpp"
+#include <algorithm>
+
+namespace sky::solver {
+
+namespace {
+
+/// Visits of a ray's node per second for one set of four wavelengths, measured with llvmpipe on two cores (docs/accuracy).
+constexpr double directVisits = 1.6e8, scatteredVisits = 4.5e7;
+constexpr double qualityFactor(const std::string& quality)
+{
+    return quality == "draft" ? 0.4 : quality == "fine" ? 5 : quality == "reference" ? 60 : 1;
+}
+
+bool anyPositive(const atmo::Spectrum& spectrum)
+{
+    return std::any_of(spectrum.begin(), spectrum.end(), [](double v) { return v > 0; });
+}
+
+double texels(const atmo::SizeScattering& s, const Options& options)
+{
+    const double layers = options.altitudeLayers ? options.altitudeLayers->second - options.altitudeLayers->first + 1 : s.altitude;
+    return double(s.viewZenithAngle) * s.dotViewSun * s.sunZenithAngle * layers;
+}
+
+} // namespace
+
+Needs needsOf(const atmo::Description& d, const Options& options)
+{
+    Needs n;
+    const auto has = [&](Part part) { return options.parts.count(part) > 0; };
+    const bool scatters = std::any_of(d.scatterers.begin(), d.scatterers.end(), [](const auto& s) {
+        return s.crossSectionAt1um > 0 && anyPositive(s.singleScatteringAlbedo);
+    });
+    const bool lit = anyPositive(d.solarIrradiance), several = d.allScatteringOrders || d.scatteringOrders > 1;
+    const auto decide = [&](bool& flag, Part part, bool possible, const std::string& why) {
+        flag = has(part) && possible;
+        if (!flag)
+            n.skipped.push_back({nameOf(part), has(part) ? why : "not asked for"});
+    };
+    const std::string dark = !lit ? "the Sun gives no light" : "nothing in this atmosphere scatters";
+    decide(n.transmittance, Part::Transmittance, true, "");
+    decide(n.irradiance, Part::Irradiance, lit, dark);
+    decide(n.single, Part::Single, scatters && lit, dark);
+    decide(n.moments, Part::Moments, scatters && lit && several, several ? dark : "a single order needs no moments");
+    decide(n.multiple, Part::Multiple, scatters && lit && several, several ? dark : "only one order of scattering was asked for");
+    for (const Part later : {Part::LightPollution, Part::Eclipsed})
+        n.skipped.push_back({nameOf(later), "this version does not compute it"});
+    n.everyEvent = scatters && lit && several &&
+                   (options.saveScatteringDensity || options.saveScatteringDensity2FromGround || options.saveDeltaScattering ||
+                    options.saveAccumulatedScattering);
+    n.field = scatters && lit && (n.moments || n.multiple || n.irradiance || n.everyEvent);
+    return n;
+}
+
+Work workOf(const atmo::Description& d, const Options& options, const Needs& needs)
+{
+    Work w;
+    const double sets = (d.wavelengths.count + 3) / 4, quality = qualityFactor(options.quality);
+    const double events = d.allScatteringOrders ? 8 : std::max(1, d.scatteringOrders - 1);
+    w.medium = 0.05;
+    w.sunlight = 0.15;
+    if (needs.field)
+        w.moments = (0.1 + 0.03 * sets * events) * quality;
+    if (needs.transmittance)
+        w.transmittance = 1e-5 * d.transmittanceSize.altitude * d.transmittanceSize.zenithAngle;
+    if (needs.irradiance)
+        w.irradiance = 1e-6 * d.irradianceSize.altitude * d.irradianceSize.zenithAngle * d.wavelengths.count;
+    const double points = texels(d.scatteringSize, options) * sets;
+    if (needs.single)
+        w.single = points * 40 * quality / directVisits;
+    if (needs.multiple)
+        w.multiple = points * 14 * quality / scatteredVisits;
+    if (needs.everyEvent)
+        w.debugging = events * (options.saveDeltaScattering + options.saveAccumulatedScattering) * points * 14 * quality / scatteredVisits;
+    w.writing = 0.05;
+    return w;
+}
+
+std::vector<PlanItem> plan(const atmo::Description& d, const Options& options)
+{
+    const Needs needs = needsOf(d, options);
+    const Work work = workOf(d, options, needs);
+    const double sets = (d.wavelengths.count + 3) / 4, points = texels(d.scatteringSize, options);
+    const double bytes = options.texturePrecisionBits <= 11 ? 2 : 4, compressed = 0.7;
+    const auto size = [](double value) { return static_cast<std::size_t>(value); };
+    const double layer = points / std::max(1, d.scatteringSize.altitude) * 16;
+    std::vector<PlanItem> items;
+    items.push_back({"medium", true, "densities and phase functions as tables", size(4e6), size(3e5), work.medium + work.sunlight});
+    if (needs.field)
+        items.push_back({"moments", true, "", size(60e6 + 8e6 * sets), size(needs.moments ? 1.2e5 * sets : 0), work.moments});
+    if (needs.transmittance)
+        items.push_back({"transmittance", true, "", size(1e6), size(d.transmittanceSize.altitude * d.transmittanceSize.zenithAngle * sets * 16 * compressed), work.transmittance});
+    if (needs.irradiance)
+        items.push_back({"irradiance", true, "", size(1e6), size(2. * d.irradianceSize.altitude * d.irradianceSize.zenithAngle * sets * 16 * compressed), work.irradiance});
+    if (needs.single)
+        for (const auto& s : d.scatterers) {
+            const bool luminance = !options.radiance && s.phaseFunctionType != atmo::PhaseFunctionType::General;
+            items.push_back({"single-scattering/" + s.name, true,
+                             luminance ? "as XYZ and scotopic luminance" : "as spectral radiance", size(layer * (luminance ? 1 : sets)),
+                             size(points * bytes * compressed * (luminance ? 4 : d.wavelengths.count)),
+                             work.single / double(d.scatterers.size())});
+        }
+    if (needs.multiple)
+        items.push_back({"multiple-scattering", true, options.radiance ? "as spectral radiance" : "as XYZ and scotopic luminance",
+                         size(50e6 + layer * (options.radiance ? sets : 1)),
+                         size(points * bytes * compressed * (options.radiance ? d.wavelengths.count : 4)), work.multiple});
+    for (const auto& s : needs.skipped)
+        items.push_back({s.what, false, s.why, 0, 0, 0});
+    return items;
+}
+
+std::vector<double> largestExtinctions(const physics::Optics& optics)
+{
+    std::vector<double> largest;
+    for (int s = 0; s < optics.species; ++s) {
+        const auto begin = optics.extinction.begin() + s * optics.wavelengths;
+        largest.push_back(*std::max_element(begin, begin + optics.wavelengths));
+    }
+    return largest;
+}
+
+} // namespace sky::solver

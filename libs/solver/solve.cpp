@@ -1,0 +1,151 @@
+// From a description to a model directory: the stages, in the order of the method (docs/method).
+
+#include "solver/solve.hpp"
+#include "atmo/write.hpp"
+#include "base/error.hpp"
+#include "model/medium_tables.hpp"
+#include "model/moment_tables.hpp"
+#include "solver/bake.hpp"
+#include "solver/debug_tables.hpp"
+#include "solver/medium_tables.hpp"
+#include "solver/plan.hpp"
+#include "solver/quality.hpp"
+#include <cmath>
+
+namespace sky::solver {
+
+namespace {
+
+/// Shares of the whole work for the progress bar, and the point where a user may stop.
+class Stages
+{
+public:
+    Stages(Progress& progress, const Work& work) : progress_(progress), work_(work), whole_(work.total()) {}
+    /// Begins a stage that takes `seconds` of the estimate; the returned function reports its progress and throws if cancelled.
+    std::function<void(double)> begin(const std::string& name, double seconds)
+    {
+        check();
+        const double from = done_;
+        done_ += seconds;
+        progress_.stage(name, std::min(1., from / whole_));
+        return [this, from, seconds](double fraction) {
+            check();
+            progress_.advance(std::min(1., (from + seconds * fraction) / whole_));
+        };
+    }
+    const Work& work() const { return work_; }
+
+private:
+    void check() const
+    {
+        if (progress_.cancelled())
+            throw Cancelled("Stopped on request; nothing was written.");
+    }
+    Progress& progress_;
+    Work work_;
+    double whole_, done_ = 0;
+};
+
+model::Manifest describe(const atmo::Description& description, const Options& options, const physics::Medium& medium)
+{
+    model::Manifest manifest;
+    manifest.generator = "calcmysky " SKY_VERSION;
+    model::describeMedium(manifest, medium);
+    manifest.sunDistance = description.sunDistance;
+    manifest.moonDistance = description.moonDistance;
+    manifest.moonRadius = description.moonRadius;
+    manifest.lightPollutionRadiance = description.lightPollutionRadiance;
+    for (std::size_t s = 0; s < description.scatterers.size(); ++s) {
+        const auto type = description.scatterers[s].phaseFunctionType;
+        manifest.species[s].phaseFunctionType = type == atmo::PhaseFunctionType::General      ? "general"
+                                                : type == atmo::PhaseFunctionType::Achromatic ? "achromatic"
+                                                                                              : "smooth";
+    }
+    manifest.scatteringOrders = description.scatteringOrders;
+    manifest.allScatteringOrders = description.allScatteringOrders;
+    manifest.settings["quality"] = options.quality;
+    manifest.settings["radiance"] = options.radiance ? "yes" : "no";
+    manifest.settings["texture-save-precision"] = std::to_string(options.texturePrecisionBits);
+    return manifest;
+}
+
+} // namespace
+
+void solve(const atmo::Description& description, const Options& options, gl::HeadlessContext& context,
+           const std::filesystem::path& outDir, Progress& progress)
+{
+    const gl::Api& api = context.api();
+    const Needs needs = needsOf(description, options);
+    Stages stages(progress, workOf(description, options, needs));
+    model::ModelWriter writer(outDir);
+
+    // 1. The medium as tables.
+    auto breath = stages.begin("medium", stages.work().medium);
+    std::vector<std::string> warnings;
+    const physics::Medium medium = evaluateMedium(description, api, warnings);
+    for (const auto& sentence : warnings)
+        progress.warning(sentence);
+    model::Manifest manifest = describe(description, options, medium);
+    manifest.warnings = warnings;
+    manifest.skipped = needs.skipped;
+    model::writeMedium(writer, medium);
+    writer.text("description.atmo", atmo::write(description));
+
+    // 2. Optics, and sunlight at every altitude.
+    breath = stages.begin("sunlight", stages.work().sunlight);
+    const Quality quality = qualityFor(options.quality, medium);
+    const physics::Profile profile(medium);
+    const physics::Optics optics = physics::makeOptics(medium, quality.moments.degree, quality.moments.truncatePeaks);
+    const physics::SunTable sun(profile, optics, medium.sunAngularRadius);
+    const Scene scene{medium, profile, optics, sun};
+    const physics::MomentGrid grid(profile, largestExtinctions(optics), quality.moments.altitudes, quality.moments.suns);
+    const BakeJob job{description, options, scene, quality.bake, grid.lowestElevation()};
+    model::describeOptics(manifest, optics, quality.moments.truncatePeaks);
+
+    // 3. The radiation field: moments of every event, summed.
+    RadiationField field;
+    if (needs.field) {
+        breath = stages.begin("moments", stages.work().moments);
+        const OrderLimit limit{std::max(2, description.scatteringOrders), description.allScatteringOrders,
+                               options.tolerance.value_or(0)};
+        field = iterate(api, scene, grid, quality.moments, limit, needs.everyEvent, breath);
+        manifest.settings["moments.events"] = std::to_string(field.eventCount);
+        if (limit.all || options.tolerance)
+            manifest.estimatedError["orders left out"] = field.remainder;
+        if (needs.moments)
+            model::writeMoments(writer, "moments", field.total);
+    }
+
+    // 4. Tables that were asked for.
+    if (needs.transmittance) {
+        breath = stages.begin("transmittance", stages.work().transmittance);
+        bakeTransmittance(job, writer);
+    }
+    if (needs.irradiance) {
+        breath = stages.begin("irradiance", stages.work().irradiance);
+        bakeIrradiance(job, needs.field ? &field : nullptr, options.saveIrradianceOrders, writer);
+    }
+    if (needs.single) {
+        breath = stages.begin("single scattering", stages.work().single);
+        bakeSingleScattering(api, job, writer, breath);
+    }
+    if (needs.multiple) {
+        breath = stages.begin("multiple scattering", stages.work().multiple);
+        bakeMultipleScattering(api, job, field.total, "multiple-scattering", writer, breath);
+    }
+    if (needs.everyEvent) {
+        breath = stages.begin("debugging tables", stages.work().debugging);
+        writeDebugTables(api, job, field, writer, breath);
+    }
+
+    stages.begin("writing", stages.work().writing);
+    writer.commit(manifest);
+}
+
+void validate(const atmo::Description& description, gl::HeadlessContext& context)
+{
+    std::vector<std::string> warnings;
+    evaluateMedium(description, context.api(), warnings);
+}
+
+} // namespace sky::solver
