@@ -56,7 +56,7 @@ std::string contentOf(const std::filesystem::path& file)
 
 } // namespace
 
-TEST_CASE_METHOD(Desk, "--help is the text kept beside this test")
+TEST_CASE_METHOD(Desk, "the text of --help is the one kept beside this test")
 {
     const Outcome outcome = calcmysky({"--help"});
     CHECK(outcome.exitCode == 0);
@@ -85,7 +85,7 @@ TEST_CASE_METHOD(Desk, "every option of --help is explained in docs/options.md")
     CHECK(found >= 30);
 }
 
-TEST_CASE_METHOD(Desk, "--version prints one line")
+TEST_CASE_METHOD(Desk, "the option --version prints one line")
 {
     const Outcome outcome = calcmysky({"--version"});
     CHECK(outcome.exitCode == 0);
@@ -151,7 +151,8 @@ TEST_CASE_METHOD(Desk, "a misspelt option or value is refused with a suggestion"
     CHECK_THAT(refused({"good.atmo", "--texture-precision=3", "--out-dir", "x"}), Contains("`--texture-precision`"));
     CHECK_THAT(refused({"good.atmo", "--out-dir", "x", "--only", "momets"}), Contains("Did you mean `moments`?"));
     CHECK_THAT(refused({"good.atmo", "--out-dir", "x", "--quality", "fien"}), Contains("Did you mean `fine`?"));
-    CHECK_THAT(refused({"docter", "--out-dir", "x", "--gl", "elg"}), Contains("auto, egl, osmesa. Did you mean `egl`?"));
+    CHECK_THAT(refused({"docter", "--out-dir", "x", "--gl", "elg"}),
+               Contains("auto, egl, osmesa. Did you mean `egl`?"));
     CHECK_THAT(refused({"good.atmo", "--xyzzy"}), !Contains("Did you mean"));
 }
 
@@ -161,7 +162,8 @@ TEST_CASE_METHOD(Desk, "missing and surplus words are refused")
     CHECK_THAT(refused({"good.atmo"}), Contains("Add --out-dir DIR."));
     CHECK_THAT(refused({"good.atmo", "--out-dir"}), Contains("--out-dir needs a value."));
     CHECK_THAT(refused({"good.atmo", "other.atmo", "--out-dir", "x"}), Contains("`good.atmo` and `other.atmo`"));
-    CHECK_THAT(refused({"good.atmo", "--out-dir", "x", "--out-dir", "y"}), Contains("--out-dir was given more than once"));
+    CHECK_THAT(refused({"good.atmo", "--out-dir", "x", "--out-dir", "y"}),
+               Contains("--out-dir was given more than once"));
     CHECK_THAT(refused({"none.atmo", "--out-dir", "x"}), Contains("There is no file `none.atmo`."));
     CHECK_THAT(refused({".", "--out-dir", "x"}), Contains("is a directory"));
     CHECK_THAT(refused({"doctor", "good.atmo"}), Contains("`doctor` takes no description"));
@@ -172,7 +174,8 @@ TEST_CASE_METHOD(Desk, "missing and surplus words are refused")
 TEST_CASE_METHOD(Desk, "values out of range are refused with the range")
 {
     for (const char* bits : {"0", "25", "x", "1.5", ""})
-        CHECK_THAT(refused({"good.atmo", "--out-dir", "x", "--texture-save-precision", bits}), Contains("from 1 to 24"));
+        CHECK_THAT(refused({"good.atmo", "--out-dir", "x", "--texture-save-precision", bits}),
+                   Contains("from 1 to 24"));
     CHECK_THAT(refused({"good.atmo", "--out-dir", "x", "--altitudes", "5..2"}), Contains("FIRST..LAST"));
     CHECK_THAT(refused({"good.atmo", "--out-dir", "x", "--altitudes", "0..8"}), Contains("8 altitude layers, 0..7"));
     CHECK_THAT(refused({"good.atmo", "--out-dir", "x", "--tolerance", "2"}), Contains("below 1"));
@@ -190,7 +193,8 @@ TEST_CASE_METHOD(Desk, "contradictions are refused")
     CHECK_THAT(both({"--only", "eclipsed", "--no-eds-tex"}), Contains("--no-eds-tex leaves it out"));
     CHECK_THAT(both({"--only", "single", "--no-save-tex"}), Contains("--no-save-tex and --only"));
     CHECK_THAT(both({"--no-save-tex", "--skip", "moments"}), Contains("nothing to write"));
-    CHECK_THAT(both({"--save-light-pollution", "--skip", "light-pollution"}), Contains("needs the part light-pollution"));
+    CHECK_THAT(both({"--save-light-pollution", "--skip", "light-pollution"}),
+               Contains("needs the part light-pollution"));
     CHECK_THAT(both({"--dry-run", "--validate"}), Contains("give one of them"));
     CHECK_THAT(both({"--quiet", "--progress", "json"}), Contains("contradict"));
     CHECK_THAT(both({"--gl", "osmesa", "--device", "0"}), Contains("can't go with --gl osmesa"));
@@ -208,7 +212,8 @@ TEST_CASE_METHOD(Desk, "who can mend an error is in the exit code, and the old m
         CHECK(contentOf(directory.path() / "model/manifest.json") == "old");
     };
     fails("typo.atmo", 2,
-          "calcmysky: typo.atmo:3:1: unknown key `groud albedo`. Did you mean `ground albedo`?\n    groud albedo: 0.3\n    ^\n");
+          "calcmysky: typo.atmo:3:1: unknown key `groud albedo`. Did you mean `ground albedo`?\n    groud albedo: "
+          "0.3\n    ^\n");
     fails("driver.atmo", 1, "calcmysky: transmittance: the driver lost its context.\n");
     fails("nan.atmo", 1, "calcmysky: irradiance: texel (3, 5)");
     fails("disk.atmo", 1, "no space left");
@@ -237,19 +242,21 @@ TEST_CASE_METHOD(Desk, "the description may come from standard input")
     CHECK(std::filesystem::exists(directory.path() / "model/manifest.json"));
 }
 
-TEST_CASE_METHOD(Desk, "--dry-run prints the plan and writes nothing")
+TEST_CASE_METHOD(Desk, "the option --dry-run prints the plan and writes nothing")
 {
     const Outcome outcome = calcmysky({"good.atmo", "--dry-run", "--out-dir", "model"});
     CHECK(outcome.exitCode == 0);
-    CHECK_THAT(outcome.output, Contains("what                                         time   memory     disk  why\n"
-                                        "moments                     computed       0.80 s   300 MB   120 kB\n"
-                                        "eclipsed double scattering  skipped             -        -        -  --no-eds-tex\n"
-                                        "total                                      0.80 s   300 MB   120 kB  memory: "));
+    CHECK_THAT(outcome.output,
+               Contains("what                                         time   memory     disk  why\n"
+                        "moments                     computed       0.80 s   300 MB   120 kB\n"
+                        "eclipsed double scattering  skipped             -        -        -  --no-eds-tex\n"
+                        "total                                      0.80 s   300 MB   120 kB  memory: "));
     CHECK_FALSE(std::filesystem::exists(directory.path() / "model"));
-    CHECK_THAT(calcmysky({"good.atmo", "--dry-run", "--skip", "moments"}).output, Contains("moments                     skipped"));
+    CHECK_THAT(calcmysky({"good.atmo", "--dry-run", "--skip", "moments"}).output,
+               Contains("moments                     skipped"));
 }
 
-TEST_CASE_METHOD(Desk, "--validate needs no output directory and passes the verdict on")
+TEST_CASE_METHOD(Desk, "the option --validate needs no output directory and passes the verdict on")
 {
     const Outcome good = calcmysky({"good.atmo", "--validate"});
     CHECK(good.exitCode == 0);
@@ -264,9 +271,11 @@ TEST_CASE_METHOD(Desk, "progress goes to standard error in the style that was as
         more.insert(more.begin(), {"good.atmo", "--out-dir", "model"});
         return calcmysky(more);
     };
-    CHECK(said({}).error == "  0 %  medium\ncalcmysky: warning: the phase function was scaled by 1.01.\n 25 %  moments\n");
+    CHECK(said({}).error ==
+          "  0 %  medium\ncalcmysky: warning: the phase function was scaled by 1.01.\n 25 %  moments\n");
     CHECK(said({"--progress", "none"}).error == "calcmysky: warning: the phase function was scaled by 1.01.\n");
-    CHECK_THAT(said({"--progress", "bar"}).error, Contains("\r[") && Contains("]  50 %  moments") && Catch::EndsWith("\r\033[K"));
+    CHECK_THAT(said({"--progress", "bar"}).error,
+               Contains("\r[") && Contains("]  50 %  moments") && Catch::EndsWith("\r\033[K"));
     const Outcome quiet = said({"--quiet"});
     CHECK(quiet.error == "");
     CHECK_THAT(quiet.output, !Contains("model:"));
@@ -296,8 +305,10 @@ TEST_CASE_METHOD(Desk, "doctor tests the machine and says when it is a CPU", "[g
         return;
     }
     CHECK(outcome.exitCode == 0);
-    CHECK_THAT(outcome.output, Contains("self-test passed") && Contains("OpenEXR 3") && Contains("storage buffers up to"));
-    if (outcome.output.find("llvmpipe") != std::string::npos && outcome.output.find("(software: slow)") != std::string::npos)
+    CHECK_THAT(outcome.output,
+               Contains("self-test passed") && Contains("OpenEXR 3") && Contains("storage buffers up to"));
+    if (outcome.output.find("llvmpipe") != std::string::npos &&
+        outcome.output.find("(software: slow)") != std::string::npos)
         CHECK_THAT(outcome.output, Contains("READY"));
     CHECK_THAT(calcmysky({"doctor", "--gl", "egl"}).output, !Contains("\nOSMesa:"));
 }
