@@ -15,7 +15,10 @@ bool printDevices(const gl::HeadlessOptions& options, std::ostream& to)
         if (!device.problem.empty())
             to << (device.driver.empty() ? "unnamed device" : device.driver) << ": cannot be used: " << device.problem;
         else
-            to << device.renderer << ", OpenGL " << device.version << (device.software ? " (software: slow)" : device.driver.empty() ? "" : ", " + device.driver);
+            to << device.renderer << ", OpenGL " << device.version
+               << (device.software         ? " (software: slow)"
+                   : device.driver.empty() ? ""
+                                           : ", " + device.driver);
         to << "\n";
     }
     to << std::flush;

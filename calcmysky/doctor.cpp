@@ -39,8 +39,8 @@ void main()
 )";
 
 struct SelfTest {
-    double worstError = 0; ///< largest relative difference from the CPU
-    double seconds = 0;    ///< compilation, dispatch and read-back
+    double worstError = 0;                ///< largest relative difference from the CPU
+    double seconds = 0;                   ///< compilation, dispatch and read-back
     static constexpr double bound = 1e-5; ///< far above the rounding of float32 (6e-8), far below a broken driver
     bool passed() const { return worstError < bound; }
 };
@@ -94,8 +94,9 @@ void printLimits(const gl::Api& api)
     std::cout << "    textures up to " << limits.textureSize << " x " << limits.textureSize << ", 3D up to "
               << limits.texture3dSize << "; storage buffers up to "
               << formatSize(static_cast<std::size_t>(limits.storageBlockSize)) << "\n    work groups of "
-              << limits.workGroupInvocations << " invocations with " << formatSize(static_cast<std::size_t>(limits.sharedMemory))
-              << " shared, " << limits.workGroupCount[0] << " groups along an axis\n";
+              << limits.workGroupInvocations << " invocations with "
+              << formatSize(static_cast<std::size_t>(limits.sharedMemory)) << " shared, " << limits.workGroupCount[0]
+              << " groups along an axis\n";
 }
 
 /// Tries one backend and prints what came of it. Nothing where it can't be used, else whether it is a CPU.
@@ -157,11 +158,13 @@ private:
         if (!software)
             return loud("NOT READY: no OpenGL 4.3.") +
                    " On Debian and Ubuntu install libegl1, libgl1-mesa-dri and libosmesa6 (apt-get install ...),\n"
-                   "or the driver of your graphics card. In a container, pass the device through (/dev/dri) or use the software\n"
+                   "or the driver of your graphics card. In a container, pass the device through (/dev/dri) or use the "
+                   "software\n"
                    "driver of libgl1-mesa-dri.";
         if (*software)
             return loud("READY, BUT IN SOFTWARE: the CPU does the work of a graphics card.") +
-                   " Results are the same, only slower.\nWith a graphics card in the machine: install its driver, and look for it in "
+                   " Results are the same, only slower.\nWith a graphics card in the machine: install its driver, and "
+                   "look for it in "
                    "--list-devices.";
         return "READY.";
     }

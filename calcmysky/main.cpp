@@ -20,7 +20,8 @@ int main(int argc, char** argv)
     };
     services.plan = solver::plan;
     services.solve = [](const atmo::Description& description, const solver::Options& options,
-                        const gl::HeadlessOptions& openGl, const std::filesystem::path& outDir, solver::Progress& progress) {
+                        const gl::HeadlessOptions& openGl, const std::filesystem::path& outDir,
+                        solver::Progress& progress) {
         gl::HeadlessContext context(openGl);
         solver::solve(description, options, context, outDir, progress);
     };

@@ -16,9 +16,9 @@ enum class ProgressStyle { Automatic, Bar, Json, None };
 
 struct Request {
     Action action = Action::Compute;
-    std::string text;                        ///< ShowText: help or version
-    Subcommand* subcommand = nullptr;        ///< Subcommand: which one
-    std::string description;                 ///< path of the .atmo file, "-" for standard input
+    std::string text;                 ///< ShowText: help or version
+    Subcommand* subcommand = nullptr; ///< Subcommand: which one
+    std::string description;          ///< path of the .atmo file, "-" for standard input
     std::filesystem::path outDir;
     solver::Options solver;
     atmo::ParseOptions parsing;
@@ -29,6 +29,7 @@ struct Request {
 
 /// Understands the arguments.
 ///   throws  UsageError: one sentence, with a suggestion for a misspelt word
-Request parseCommandLine(int argc, const char* const* argv, const std::vector<std::unique_ptr<Subcommand>>& subcommands);
+Request parseCommandLine(int argc, const char* const* argv,
+                         const std::vector<std::unique_ptr<Subcommand>>& subcommands);
 
 } // namespace sky::cli

@@ -38,8 +38,9 @@ void printPlan(const std::vector<solver::PlanItem>& plan, std::ostream& to)
         total.diskBytes += item.diskBytes;
         total.seconds += item.seconds;
     }
-    to << std::left << std::setw(widths.what) << "what" << "  " << std::setw(widths.verdict) << "" << std::right
-       << std::setw(widths.time) << "time" << std::setw(widths.memory) << "memory" << std::setw(widths.disk) << "disk"
+    to << std::left << std::setw(widths.what) << "what"
+       << "  " << std::setw(widths.verdict) << "" << std::right << std::setw(widths.time) << "time"
+       << std::setw(widths.memory) << "memory" << std::setw(widths.disk) << "disk"
        << "  why\n";
     for (const solver::PlanItem& item : plan)
         printRow(widths, item, item.computed ? "computed" : "skipped", to);

@@ -14,7 +14,8 @@ struct Services {
     std::function<atmo::Description(const std::string& path, const atmo::ParseOptions&)> read; ///< path may be "-"
     std::function<std::vector<solver::PlanItem>(const atmo::Description&, const solver::Options&)> plan;
     std::function<void(const atmo::Description&, const solver::Options&, const gl::HeadlessOptions&,
-                       const std::filesystem::path& outDir, solver::Progress&)> solve;
+                       const std::filesystem::path& outDir, solver::Progress&)>
+        solve;
     std::function<void(const atmo::Description&, const gl::HeadlessOptions&)> validate;
 };
 

@@ -27,8 +27,8 @@ struct ReporterSurroundings {
     std::ostream& stream;
     bool terminal = false;
     bool colour = false;
-    std::function<int()> width;          ///< columns of the terminal
-    std::function<double()> secondsNow;  ///< a clock that never goes back
+    std::function<int()> width;         ///< columns of the terminal
+    std::function<double()> secondsNow; ///< a clock that never goes back
 };
 
 /// A bar on a terminal, lines elsewhere, JSON, or errors and warnings only; as the options say.

@@ -16,8 +16,8 @@ class Subcommand
 {
 public:
     virtual ~Subcommand() = default;
-    /// Adds the subcommand with its options to the command line and returns it. The options of the main command about OpenGL,
-    /// progress and quiet are understood after the subcommand's name too; `run` finds them in the request.
+    /// Adds the subcommand with its options to the command line and returns it. The options of the main command about
+    /// OpenGL, progress and quiet are understood after the subcommand's name too; `run` finds them in the request.
     virtual CLI::App* addTo(CLI::App& app) = 0;
     /// Does the work; returns the exit code. Throws Error where it fails.
     virtual int run(const Request& request) = 0;

@@ -25,7 +25,10 @@ std::optional<Number> number(std::string_view text)
     return value;
 }
 
-std::string inQuotes(const std::string& text) { return "`" + text + "`"; }
+std::string inQuotes(const std::string& text)
+{
+    return "`" + text + "`";
+}
 
 std::string joined(const std::vector<std::string>& words)
 {
@@ -44,7 +47,10 @@ std::string fixed(double value, int digits)
 }
 
 /// At least two digits.
-std::string twoDigits(long value) { return (value < 10 ? "0" : "") + std::to_string(value); }
+std::string twoDigits(long value)
+{
+    return (value < 10 ? "0" : "") + std::to_string(value);
+}
 
 } // namespace
 
@@ -65,7 +71,8 @@ double readFraction(const std::string& option, const std::string& text)
 {
     const auto value = number<double>(text);
     if (!value || !(*value > 0 && *value < 1))
-        throw UsageError(option + " takes a number above 0 and below 1, 0.001 for instance; " + inQuotes(text) + " is none.");
+        throw UsageError(option + " takes a number above 0 and below 1, 0.001 for instance; " + inQuotes(text) +
+                         " is none.");
     return *value;
 }
 
@@ -95,7 +102,8 @@ std::pair<int, int> readLayers(const std::string& option, const std::string& tex
     const auto first = number<int>(std::string_view(text).substr(0, dots));
     const auto last = dots == std::string::npos ? first : number<int>(std::string_view(text).substr(dots + 2));
     if (!first || !last || *first < 0 || *last < *first)
-        throw UsageError(option + " takes altitude layers as FIRST..LAST, counted from 0 at the ground, 0..3 for instance; " +
+        throw UsageError(option +
+                         " takes altitude layers as FIRST..LAST, counted from 0 at the ground, 0..3 for instance; " +
                          inQuotes(text) + " is none.");
     return {*first, *last};
 }

@@ -42,7 +42,8 @@ InterruptGuard::InterruptGuard()
     SetConsoleCtrlHandler(onConsoleEvent, TRUE);
 #else
     for (const int signal : stopSignals) {
-        struct sigaction action{}, old{};
+        struct sigaction action {
+        }, old{};
         action.sa_handler = onSignal; // without SA_RESTART: a read from a pipe that never ends is woken too
         sigaction(signal, nullptr, &old);
         if (old.sa_handler != SIG_IGN) // nohup and background jobs of scripts ignore some on purpose
@@ -57,7 +58,8 @@ InterruptGuard::~InterruptGuard()
     SetConsoleCtrlHandler(onConsoleEvent, FALSE);
 #else
     for (const int signal : stopSignals) {
-        struct sigaction old{};
+        struct sigaction old {
+        };
         sigaction(signal, nullptr, &old);
         if (old.sa_handler == onSignal)
             std::signal(signal, SIG_DFL);
@@ -65,6 +67,9 @@ InterruptGuard::~InterruptGuard()
 #endif
 }
 
-bool interrupted() { return interruptFlag; }
+bool interrupted()
+{
+    return interruptFlag;
+}
 
 } // namespace sky

@@ -1,4 +1,5 @@
-// calcmysky with a solver that obeys the name of the description: "slow" never ends, "driver" fails like a driver, and so on.
+// calcmysky with a solver that obeys the name of the description: "slow" never ends, "driver" fails like a driver, and
+// so on.
 
 #include <chrono>
 #include <fstream>
@@ -15,7 +16,8 @@ namespace {
 [[noreturn]] void failLike(const std::string& name)
 {
     if (name == "typo.atmo")
-        throw AtmoError({"typo.atmo", 3, 1}, "unknown key `groud albedo`. Did you mean `ground albedo`?", "groud albedo: 0.3");
+        throw AtmoError({"typo.atmo", 3, 1}, "unknown key `groud albedo`. Did you mean `ground albedo`?",
+                        "groud albedo: 0.3");
     if (name == "driver.atmo")
         throw GlError("transmittance: the driver lost its context.");
     if (name == "nan.atmo")
@@ -54,16 +56,18 @@ void echo(const solver::Options& options, const gl::HeadlessOptions& openGl)
     std::cout << "parts";
     for (const solver::Part part : options.parts)
         std::cout << " " << nameOf(part);
-    std::cout << "\nradiance=" << options.radiance << " bits=" << options.texturePrecisionBits << " quality=" << options.quality
-              << " tolerance=" << options.tolerance.value_or(0) << " memory=" << options.maxMemoryBytes;
+    std::cout << "\nradiance=" << options.radiance << " bits=" << options.texturePrecisionBits
+              << " quality=" << options.quality << " tolerance=" << options.tolerance.value_or(0)
+              << " memory=" << options.maxMemoryBytes;
     if (options.altitudeLayers)
         std::cout << " layers=" << options.altitudeLayers->first << ".." << options.altitudeLayers->second;
     std::cout << "\nsave" << (options.saveIrradianceOrders ? " irradiance" : "")
               << (options.saveScatteringDensity ? " density" : "")
-              << (options.saveScatteringDensity2FromGround ? " density2" : "") << (options.saveDeltaScattering ? " delta" : "")
-              << (options.saveAccumulatedScattering ? " accumulated" : "") << (options.saveLightPollution ? " pollution" : "")
-              << "\nbackend=" << static_cast<int>(openGl.backend) << " device=" << openGl.device
-              << " debug=" << static_cast<int>(openGl.debug) << std::endl;
+              << (options.saveScatteringDensity2FromGround ? " density2" : "")
+              << (options.saveDeltaScattering ? " delta" : "")
+              << (options.saveAccumulatedScattering ? " accumulated" : "")
+              << (options.saveLightPollution ? " pollution" : "") << "\nbackend=" << static_cast<int>(openGl.backend)
+              << " device=" << openGl.device << " debug=" << static_cast<int>(openGl.debug) << std::endl;
 }
 
 void solve(const atmo::Description& description, const solver::Options& options, const gl::HeadlessOptions& openGl,

@@ -14,11 +14,11 @@ struct Outcome {
 };
 
 struct Run {
-    std::vector<std::string> arguments;              ///< the program's path first
-    std::string input;                               ///< standard input
-    std::vector<std::string> environment;            ///< "NAME=value", added to ours; "NAME" removes it
-    std::filesystem::path directory;                 ///< where it runs; empty: here
-    std::string signalAfter;                         ///< once this text stands on standard output or error, `signal` is sent
+    std::vector<std::string> arguments;   ///< the program's path first
+    std::string input;                    ///< standard input
+    std::vector<std::string> environment; ///< "NAME=value", added to ours; "NAME" removes it
+    std::filesystem::path directory;      ///< where it runs; empty: here
+    std::string signalAfter;              ///< once this text stands on standard output or error, `signal` is sent
     int signal = 0;
 };
 
