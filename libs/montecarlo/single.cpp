@@ -8,7 +8,7 @@ namespace sky::montecarlo {
 namespace {
 
 constexpr double halvingTolerance = 2e-5;
-constexpr int maxHalvings = 5;
+constexpr int maxHalvings = 4;   // each costs a factor of 4 to 8
 
 double integrate(const Air& air, const Scene& scene, const Leg& leg, int halvings)
 {
