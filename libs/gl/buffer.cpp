@@ -38,6 +38,25 @@ void Buffer::upload(const void* data, std::size_t count, std::size_t offset)
     gl->BindBuffer(GL_COPY_WRITE_BUFFER, 0);
 }
 
+void Buffer::rewrite(std::size_t count, const std::function<void(void*)>& fill)
+{
+    checkRange(count, 0);
+    if (count == 0)
+        return;
+    const Api& gl = api();
+    gl->BindBuffer(GL_COPY_WRITE_BUFFER, name());
+    void* const mapped = gl->MapBufferRange(GL_COPY_WRITE_BUFFER, 0, static_cast<GLsizeiptr>(count),
+                                            GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT);
+    if (mapped)
+        fill(mapped);
+    const bool intact = mapped && gl->UnmapBuffer(GL_COPY_WRITE_BUFFER);
+    gl->BindBuffer(GL_COPY_WRITE_BUFFER, 0);
+    if (!intact) {
+        checkErrors(gl, "writing a buffer", label());
+        throw GlError("writing a buffer (" + label() + "): the driver lost its content.");
+    }
+}
+
 void Buffer::downloadTo(void* to, std::size_t count, std::size_t offset) const
 {
     checkRange(count, offset);

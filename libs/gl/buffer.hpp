@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -36,6 +37,8 @@ public:
         upload(values.data(), values.size() * sizeof(T), offset);
     }
 
+    /// Throws the content away and lets `fill` write the first `count` bytes in place: no copy where the driver shares memory.
+    void rewrite(std::size_t count, const std::function<void(void*)>& fill);
     /// Waits for the GPU and copies `count` bytes from `offset` on to `to`.
     void downloadTo(void* to, std::size_t count, std::size_t offset = 0) const;
     /// Waits for the GPU and returns the whole content.

@@ -163,7 +163,7 @@ void bakeMultipleScattering(const gl::Api& api, const BakeJob& job, const physic
     auto table = writer.table(scatteringSpec(job, name, luminance, "multiple scattering"));
     ScatteredGather gather(api, job.scene, false,
                            luminance ? luminanceOf(job.scene.medium) : std::vector<std::array<double, 4>>{});
-    const FieldTexels texelsOfField(api, field, job.settings.refinement);
+    const FineField fine(field, job.settings.refinement);
     const SunSamples samples = samplesOf(api, job);
     const auto altitudes = job.altitudes();
     const int views = job.description.scatteringSize.viewZenithAngle;
@@ -172,7 +172,7 @@ void bakeMultipleScattering(const gl::Api& api, const BakeJob& job, const physic
     gl::Buffer results(api, "multiple scattering", texels * 4 * sizeof(float) * (luminance ? 1 : job.scene.sets()));
     for (std::size_t layer = 0; layer < altitudes.size(); ++layer) {
         const ScatteredRays rays(api, job.scene, field.grid, viewsFrom(job, altitudes[layer]), job.settings.nodes);
-        gather.gather(rays, texelsOfField, samples, strides, results,
+        gather.gather(rays, fine, samples, strides, results,
                       [&] { breath(double(layer) / double(altitudes.size())); });
         writeLayer(job, table, static_cast<int>(layer), luminance, results.download().data(), samples.suns, texels);
     }

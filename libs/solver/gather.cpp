@@ -1,8 +1,6 @@
 #include "solver/gather.hpp"
-#include "physics/harmonics.hpp"
 #include "sky_shaders.hpp"
 #include <algorithm>
-#include <cmath>
 
 namespace sky::solver {
 
@@ -11,7 +9,8 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 /// Work of one dispatch, in node visits: some tens of milliseconds on two cores, far below any watchdog on a GPU.
 constexpr std::size_t visitsPerDispatch = 1 << 21;
-constexpr std::size_t sourceBytes = std::size_t(48) << 20;
+/// What fold() writes for one dispatch.
+constexpr std::size_t sourceBytes = std::size_t(16) << 20;
 
 std::vector<gl::Define> definesOf(const Scene& scene, const std::vector<std::array<double, 4>>& luminance)
 {
@@ -142,60 +141,45 @@ void DirectGather::gather(const DirectRays& rays, const SunSamples& samples, Str
 
 ScatteredGather::ScatteredGather(const gl::Api& api, const Scene& scene, bool fromGround,
                                  const std::vector<std::array<double, 4>>& luminance)
-    : api_(api), scene_(scene),
-      prepare_(gl::ProgramBuilder(api, shaders::source).compute("prepare rays", "solve/prepare.comp", definesOf(scene, {}))),
-      scattered_([&] {
+    : api_(api), scene_(scene), program_([&] {
           auto defines = definesOf(scene, luminance);
           defines.push_back({"FROM_GROUND", fromGround ? "1" : "0"});
           return gl::ProgramBuilder(api, shaders::source).compute("scattered gather", "solve/scattered.comp", defines);
       }())
 {
-    setLuminance(scattered_, scene, luminance);
+    setLuminance(program_, scene, luminance);
 }
 
-void ScatteredGather::gather(const ScatteredRays& rays, const FieldTexels& field, const SunSamples& samples, Strides strides,
+void ScatteredGather::gather(const ScatteredRays& rays, const FineField& field, const SunSamples& samples, Strides strides,
                              gl::Buffer& results, const Breath& breath)
 {
-    bindSamples(scattered_, samples, strides, rays.nodes);
-    bind(scattered_, "rayNodes", 2, rays.rayNodes);
-    scattered_.set("fieldSuns", field.suns);
-    scattered_.set("vLowest", static_cast<float>(field.vLowest));
-    bind(prepare_, "field", 4, field.moments);
-    bind(prepare_, "groundField", 5, field.ground);
-    bind(prepare_, "altitudeStencils", 6, rays.altitudeStencils);
-    bind(prepare_, "coefficients", 7, rays.coefficients);
-    bind(prepare_, "factors", 8, rays.factors);
-    bind(prepare_, "ground", 9, rays.ground);
-    prepare_.set("suns", field.suns);
-    prepare_.set("nodes", rays.nodes);
+    bindSamples(program_, samples, strides, rays.nodes);
+    bind(program_, "rayNodes", 2, rays.rayNodes);
+    program_.set("fieldSuns", field.suns);
+    program_.set("vLowest", static_cast<float>(field.vLowest));
 
     const std::size_t perRay = std::size_t(rays.nodes + 1) * field.suns * (scene_.optics.degree + 2) * scene_.sets();
     const std::size_t visits = std::size_t(samples.suns) * samples.azimuths * rays.nodes;
     const std::size_t fitting = std::min(sourceBytes / 16, gl::BufferTexture::maxTexels(api_)) / perRay;
-    const int chunk = static_cast<int>(std::clamp<std::size_t>(std::min(fitting, visitsPerDispatch / visits), 1, rays.count));
+    const int chunk = static_cast<int>(
+        std::min<std::size_t>(std::max<std::size_t>(1, std::min(fitting, visitsPerDispatch / visits)), rays.count));
     if (!source_ || sourceTexels_ < chunk * perRay) {
         source_.reset();
         source_.emplace(api_, "ray sources", chunk * perRay);
         sourceTexels_ = chunk * perRay;
     }
-    bind(scattered_, "source", 3, *source_);
+    bind(program_, "source", 3, *source_);
+    results.bindStorage(0);
+    const gl::Bound pass(program_);
     for (int first = 0; first < rays.count; first += chunk) {
         breath();
-        const auto count = static_cast<unsigned>(std::min(chunk, rays.count - first));
-        {
-            const gl::Bound pass(prepare_);
-            prepare_.set("firstRay", first);
-            source_->buffer.bindStorage(0);
-            prepare_.dispatchOver(static_cast<unsigned>(field.suns * scene_.sets()), count * static_cast<unsigned>(rays.nodes + 1));
-        }
-        gl::memoryBarrier(api_);
-        const gl::Bound pass(scattered_);
-        scattered_.set("firstRay", first);
-        results.bindStorage(0);
-        scattered_.dispatchOver(static_cast<unsigned>(samples.suns * samples.azimuths), count);
-        gl::memoryBarrier(api_);
+        const int count = std::min(chunk, rays.count - first);
+        source_->buffer.rewrite(count * perRay * 16, [&](void* to) { fold(field, rays, first, count, static_cast<float*>(to)); });
+        program_.set("firstRay", first);
+        program_.dispatchOver(static_cast<unsigned>(samples.suns * samples.azimuths), static_cast<unsigned>(count));
         api_->Flush();
     }
+    gl::memoryBarrier(api_);
     gl::checkErrors(api_, "scattered gather");
 }
 

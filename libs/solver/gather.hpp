@@ -46,7 +46,7 @@ private:
     TexelBuffer sunDepths_, phases_;
 };
 
-/// Light of later events along rays: solve/prepare.comp and solve/scattered.comp.
+/// Light of later events along rays: fold() and solve/scattered.comp.
 class ScatteredGather
 {
 public:
@@ -54,13 +54,13 @@ public:
     ScatteredGather(const gl::Api& api, const Scene& scene, bool fromGround, const std::vector<std::array<double, 4>>& luminance);
 
     /// Fills `results`: rays x suns x azimuths texels, see DirectGather.
-    void gather(const ScatteredRays& rays, const FieldTexels& field, const SunSamples& samples, Strides strides,
+    void gather(const ScatteredRays& rays, const FineField& field, const SunSamples& samples, Strides strides,
                 gl::Buffer& results, const Breath& breath);
 
 private:
     gl::Api api_;
     const Scene scene_;
-    gl::Program prepare_, scattered_;
+    gl::Program program_;
     std::optional<TexelBuffer> source_; // kept between calls: it is large
     std::size_t sourceTexels_ = 0;
 };

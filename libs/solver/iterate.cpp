@@ -49,7 +49,7 @@ public:
             rays_.emplace(api_, scene_, grid_, starts_, settings_.nodes);
             gather_.emplace(api_, scene_, true, std::vector<std::array<double, 4>>{});
         }
-        gather_->gather(*rays_, FieldTexels(api_, field, sweepRefinement), samples_, strides(), results_, breath);
+        gather_->gather(*rays_, FineField(field, sweepRefinement), samples_, strides(), results_, breath);
         return project();
     }
 

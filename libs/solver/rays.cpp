@@ -109,58 +109,61 @@ DirectRays::DirectRays(const gl::Api& api, const Scene& scene, const std::vector
 {
 }
 
-struct ScatteredRays::Data {
-    std::vector<float> nodes, stencils, coefficients, factors, ground;
-    Data(const Scene& scene, const physics::MomentGrid& grid, const std::vector<RayStart>& starts, int nodeCount);
-};
+namespace {
 
-ScatteredRays::Data::Data(const Scene& scene, const physics::MomentGrid& grid, const std::vector<RayStart>& starts, int nodeCount)
+std::vector<float> scatteredNodes(const std::vector<physics::RayNodes>& rays, int nodeCount)
 {
-    const auto rays = traceRays(scene, starts, nodeCount);
-    const auto& optics = scene.optics;
-    const int sets = scene.sets(), scatterers = scene.scatterers(), wavelengths = optics.wavelengths;
-    const int terms = optics.degree + 1, harmonics = physics::harmonicCount(optics.degree);
-    nodes.resize(rays.size() * (nodeCount + 1) * 4);
-    stencils.resize(rays.size() * nodeCount * 8);
-    coefficients.resize(rays.size() * nodeCount * terms * sets * 4);
-    factors.resize(rays.size() * nodeCount * harmonics);
-    std::vector<double> zenithal(harmonics);
+    std::vector<float> values(rays.size() * (nodeCount + 1) * 4);
     for (std::size_t r = 0; r < rays.size(); ++r) {
-        const auto& ray = rays[r];
-        putNode(&nodes[(r * (nodeCount + 1) + nodeCount) * 4], ray.ground, ray.hitsGround ? 1 : 0);
-        for (int k = 0; k < nodeCount; ++k) {
-            const std::size_t at = r * nodeCount + k;
-            putNode(&nodes[(r * (nodeCount + 1) + k) * 4], ray.nodes[k], 0);
-            const auto stencil = grid.altitudeStencil(ray.nodes[k].altitude);
-            for (int i = 0; i < 4; ++i) {
-                stencils[at * 8 + i] = static_cast<float>(stencil.index[i]);
-                stencils[at * 8 + 4 + i] = static_cast<float>(stencil.weight[i]);
-            }
-            physics::harmonicFactors(optics.degree, ray.nodes[k].mu, zenithal.data());
-            for (int lm = 0; lm < harmonics; ++lm)
-                factors[at * harmonics + lm] = static_cast<float>(zenithal[lm]);
-            for (int i = 0; i < scatterers; ++i)
-                for (int l = 0; l < terms; ++l)
-                    for (int w = 0; w < wavelengths; ++w)
-                        coefficients[(at * terms + l) * sets * 4 + w] +=
-                            static_cast<float>(ray.weights[(k * scatterers + i) * wavelengths + w] *
-                                               optics.moment(optics.scatterers[i], l, w));
-        }
+        float* to = &values[r * (nodeCount + 1) * 4];
+        for (int k = 0; k < nodeCount; ++k)
+            putNode(to + 4 * k, rays[r].nodes[k], 0);
+        putNode(to + 4 * nodeCount, rays[r].ground, rays[r].hitsGround ? 1 : 0);
     }
-    ground = groundTexels(scene, rays);
+    return values;
 }
 
-ScatteredRays::ScatteredRays(const gl::Api& api, const Data& data, int rays, int nodeCount)
-    : count(rays), nodes(nodeCount), rayNodes(api, "scattered ray nodes", data.nodes),
-      altitudeStencils(api, "altitude stencils", data.stencils), coefficients(api, "scattered coefficients", data.coefficients),
-      factors(api, "harmonic factors", data.factors, 1), ground(api, "scattered ground", data.ground)
+} // namespace
+
+ScatteredRays::ScatteredRays(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid,
+                             const std::vector<RayStart>& starts, int nodeCount)
+    : ScatteredRays(api, scene, grid, traceRays(scene, starts, nodeCount), nodeCount)
 {
 }
 
 ScatteredRays::ScatteredRays(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid,
-                             const std::vector<RayStart>& starts, int nodeCount)
-    : ScatteredRays(api, Data(scene, grid, starts, nodeCount), static_cast<int>(starts.size()), nodeCount)
+                             const std::vector<physics::RayNodes>& rays, int nodeCount)
+    : count(static_cast<int>(rays.size())), nodes(nodeCount), degree(scene.optics.degree),
+      rayNodes(api, "scattered ray nodes", scatteredNodes(rays, nodeCount)), folds(rays.size() * nodeCount),
+      ground(groundTexels(scene, rays))
 {
+    const auto& optics = scene.optics;
+    const int stride = scene.sets() * 4, scatterers = scene.scatterers(), wavelengths = optics.wavelengths;
+    const int terms = degree + 1, harmonics = physics::harmonicCount(degree);
+    coefficients.resize(rays.size() * nodeCount * terms * stride);
+    factors.resize(rays.size() * nodeCount * harmonics);
+    base::parallel([&](int thread, int threads) {
+        std::vector<double> zenithal(harmonics);
+        for (std::size_t r = thread; r < rays.size(); r += threads)
+            for (int k = 0; k < nodeCount; ++k) {
+                const std::size_t at = r * nodeCount + k;
+                const auto& ray = rays[r];
+                const auto stencil = grid.altitudeStencil(ray.nodes[k].altitude);
+                for (int i = 0; i < 4; ++i) {
+                    folds[at].level[i] = stencil.index[i];
+                    folds[at].weight[i] = static_cast<float>(stencil.weight[i]);
+                }
+                physics::harmonicFactors(degree, ray.nodes[k].mu, zenithal.data());
+                for (int lm = 0; lm < harmonics; ++lm)
+                    factors[at * harmonics + lm] = static_cast<float>(zenithal[lm]);
+                for (int i = 0; i < scatterers; ++i)
+                    for (int l = 0; l < terms; ++l)
+                        for (int w = 0; w < wavelengths; ++w)
+                            coefficients[(at * terms + l) * stride + w] +=
+                                static_cast<float>(ray.weights[(k * scatterers + i) * wavelengths + w] *
+                                                   optics.moment(optics.scatterers[i], l, w));
+            }
+    });
 }
 
 } // namespace sky::solver

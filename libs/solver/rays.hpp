@@ -38,7 +38,7 @@ struct Scene {
 /// Traces rays on all cores.
 std::vector<physics::RayNodes> traceRays(const Scene& scene, const std::vector<RayStart>& starts, int nodes);
 
-/// Rays for the light of the first event (direct.comp).
+/// Rays for the light of the first event (solve/direct.comp).
 struct DirectRays {
     int count, nodes;
     TexelBuffer rayNodes; ///< [ray][node + ground][2]: sunScale, nuScale, mu, hits ground; horizon, inverse range, row, fraction
@@ -53,20 +53,24 @@ private:
     DirectRays(const gl::Api& api, const Data& data, int rays, int nodes);
 };
 
-/// Rays for the light of later events (prepare.comp, scattered.comp).
+/// Rays for the light of later events: nodes for scattered.comp, the rest for fold().
 struct ScatteredRays {
-    int count, nodes;
-    TexelBuffer rayNodes;         ///< [ray][node + ground]: sunScale, nuScale, mu, hits ground
-    TexelBuffer altitudeStencils; ///< [ray][node][2]
-    TexelBuffer coefficients;     ///< [ray][node][l][set]
-    TexelBuffer factors;          ///< [ray][node][lm], floats
-    TexelBuffer ground;           ///< [ray][set]
+    struct FoldNode {
+        int level[4]; ///< altitude stencil in the grid of moments
+        float weight[4];
+    };
+    int count, nodes, degree;
+    TexelBuffer rayNodes;            ///< [ray][node + ground]: sunScale, nuScale, mu, hits ground
+    std::vector<FoldNode> folds;     ///< [ray][node]
+    std::vector<float> coefficients; ///< [ray][node][l][padded wavelength]: sum over scatterers of weight lambda_l
+    std::vector<float> factors;      ///< [ray][node][lm]: zenith-angle factor of the harmonic
+    std::vector<float> ground;       ///< [ray][padded wavelength]: transmittance times albedo / pi
     ScatteredRays(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid, const std::vector<RayStart>& starts,
                   int nodes);
 
 private:
-    struct Data;
-    ScatteredRays(const gl::Api& api, const Data& data, int rays, int nodes);
+    ScatteredRays(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid,
+                  const std::vector<physics::RayNodes>& rays, int nodes);
 };
 
 } // namespace sky::solver

@@ -5,7 +5,7 @@
 
 const int terms = DEGREE + 1;
 
-uniform samplerBuffer source; // [ray of this dispatch][node][sun][1 + term][set], from prepare.comp
+uniform samplerBuffer source; // [ray of this dispatch][node][sun][1 + term][set], from fold()
 uniform int fieldSuns;
 uniform float vLowest;
 
