@@ -7,13 +7,14 @@
 
 #include <vector>
 
-namespace sky::montecarlo {
+namespace sky::montecarlo
+{
 
 /// Coefficients at one altitude.
 struct Local {
-    double extinction = 0;            ///< 1/m, all species
-    double bright = 0;                ///< sum of scattering coefficient times integral of the phase function, 1/m
-    std::vector<double> scattering;   ///< [scattering species], 1/m
+    double extinction = 0;          ///< 1/m, all species
+    double bright = 0;              ///< sum of scattering coefficient times integral of the phase function, 1/m
+    std::vector<double> scattering; ///< [scattering species], 1/m
 };
 
 /// Where light of the Sun is likely: the transmittance towards it from the middle of each shell, by the cosine of its
@@ -49,7 +50,7 @@ public:
 private:
     struct Kind {
         std::vector<double> logDensity, density;
-        double extinction = 0, scattering = 0;   // m^2
+        double extinction = 0, scattering = 0; // m^2
         bool scatters = false;
     };
     Profile profile_;
@@ -58,7 +59,7 @@ private:
     std::vector<double> altitudes_;
     std::vector<std::size_t> guideToInterval_;
     std::vector<Kind> kinds_;
-    std::vector<PhaseTable> phases_;             // of the kinds that scatter, in their order
+    std::vector<PhaseTable> phases_; // of the kinds that scatter, in their order
 };
 
 } // namespace sky::montecarlo

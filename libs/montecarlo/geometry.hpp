@@ -6,7 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-namespace sky::montecarlo {
+namespace sky::montecarlo
+{
 
 struct Vec {
     double x = 0, y = 0, z = 0;
@@ -14,14 +15,29 @@ struct Vec {
     friend Vec operator-(Vec a, Vec b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
     friend Vec operator*(double k, Vec a) { return {k * a.x, k * a.y, k * a.z}; }
 };
-inline double dot(Vec a, Vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Vec cross(Vec a, Vec b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
-inline double length(Vec a) { return std::sqrt(dot(a, a)); }
-inline Vec normalized(Vec a) { return (1 / length(a)) * a; }
+inline double dot(Vec a, Vec b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+inline Vec cross(Vec a, Vec b)
+{
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline double length(Vec a)
+{
+    return std::sqrt(dot(a, a));
+}
+inline Vec normalized(Vec a)
+{
+    return (1 / length(a)) * a;
+}
 
 /// Angle between two unit vectors, rad. The half-angle form keeps full precision near 0 and pi, where acos loses half
 /// of the digits.
-inline double angleBetween(Vec a, Vec b) { return 2 * std::atan2(length(a - b), length(a + b)); }
+inline double angleBetween(Vec a, Vec b)
+{
+    return 2 * std::atan2(length(a - b), length(a + b));
+}
 
 /// A unit vector perpendicular to the unit vector `a`.
 inline Vec perpendicular(Vec a)
@@ -44,11 +60,11 @@ struct Place {
 
 /// The quadratic X(s) of a ray, s >= 0.
 struct Ray {
-    double x0 = 0;   ///< X at the start, m^2
-    double b = 0;    ///< radius times cosine of the zenith angle, m
+    double x0 = 0; ///< X at the start, m^2
+    double b = 0;  ///< radius times cosine of the zenith angle, m
 
     double at(double s) const { return x0 + s * (2 * b + s); }
-    double lowest() const { return x0 - b * b; }   ///< X at the perigee; meaningful where b < 0
+    double lowest() const { return x0 - b * b; } ///< X at the perigee; meaningful where b < 0
     bool hitsGround() const { return b < 0 && lowest() < 0; }
 
     /// Distance at which a descending ray (b < 0) crosses x on its way down, lowest() <= x <= x0.
@@ -61,7 +77,10 @@ struct Ray {
     }
 };
 
-inline double radialSquare(double planetRadius, double altitude) { return altitude * (altitude + 2 * planetRadius); }
+inline double radialSquare(double planetRadius, double altitude)
+{
+    return altitude * (altitude + 2 * planetRadius);
+}
 /// Inverse of radialSquare, by the conjugate of sqrt(R^2 + X) - R.
 inline double altitudeOf(double planetRadius, double x)
 {
@@ -76,7 +95,8 @@ inline Ray rayFrom(double planetRadius, const Place& place, Vec direction)
 /// The place at distance s along the ray.
 inline Place moved(double planetRadius, const Place& place, Vec direction, const Ray& ray, double s)
 {
-    return {altitudeOf(planetRadius, ray.at(s)), normalized((planetRadius + place.altitude) * place.up + s * direction)};
+    return {altitudeOf(planetRadius, ray.at(s)),
+            normalized((planetRadius + place.altitude) * place.up + s * direction)};
 }
 
 } // namespace sky::montecarlo

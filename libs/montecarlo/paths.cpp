@@ -4,8 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-namespace sky::montecarlo {
-namespace {
+namespace sky::montecarlo
+{
+namespace
+{
 
 constexpr double pi = std::numbers::pi;
 constexpr double plainShare = 0.5;         // of events placed by optical depth alone; bounds the guide's weights by 2
@@ -46,9 +48,7 @@ void PathTracer::prepare(const Place& place, Vec direction, const Ray& ray, cons
     const double radius = air_.profile().planetRadius();
     const double upSun = (radius + place.altitude) * dot(place.up, scene_.sun.centre());
     const double alongSun = dot(direction, scene_.sun.centre());
-    const auto muSunAt = [&](double s) {
-        return (upSun + s * alongSun) / std::sqrt(radius * radius + ray.at(s));
-    };
+    const auto muSunAt = [&](double s) { return (upSun + s * alongSun) / std::sqrt(radius * radius + ray.at(s)); };
     // Here `cumulative` holds the plain chance of each event and `weight` the guide's factor.
     choice.cumulative.clear();
     choice.weight.clear();
@@ -163,13 +163,14 @@ double PathTracer::path(Random& random, const Decisions& decisions)
         if (!onGround && !(local_.extinction > 0))
             return radiance;
         if (order >= orders_.first)
-            radiance += weight * (onGround ? sunlightAtGround(place, random) : sunlightAtAir(place, direction, local_, random));
+            radiance +=
+                weight * (onGround ? sunlightAtGround(place, random) : sunlightAtAir(place, direction, local_, random));
         if (order == orders_.last)
             return radiance;
 
         const double u1 = order == 1 ? decisions[1] : random.uniform();
         const double u2 = order == 1 ? decisions[2] : random.uniform();
-        if (onGround)   // Lambert's law: the sine squared is uniform. The albedo is in the weight already.
+        if (onGround) // Lambert's law: the sine squared is uniform. The albedo is in the weight already.
             direction = turned(place.up, std::sqrt(1 - u1), std::sqrt(u1), 2 * pi * u2);
         else
             direction = scattered(direction, local_, u1, u2, weight);

@@ -7,7 +7,8 @@
 #include <array>
 #include <vector>
 
-namespace sky::montecarlo {
+namespace sky::montecarlo
+{
 
 /// Which events a path counts: those of order `first` .. `last`; last = 0 means all.
 struct Orders {
@@ -31,13 +32,15 @@ private:
 
     /// How the next event of a leg is chosen: one entry per segment, one more for the ground.
     struct Choice {
-        std::vector<double> cumulative;   // of the probability
-        std::vector<double> weight;       // what an event there stands for
+        std::vector<double> cumulative; // of the probability
+        std::vector<double> weight;     // what an event there stands for
         bool possible = false;
     };
-    void prepare(const Place& place, Vec direction, const Ray& ray, const Leg& leg, double groundAlbedo, Choice& choice) const;
+    void prepare(const Place& place, Vec direction, const Ray& ray, const Leg& leg, double groundAlbedo,
+                 Choice& choice) const;
     /// Moves to the next event; returns whether it is on the ground. Multiplies `weight`.
-    bool advance(Place& place, Vec direction, const Ray& ray, const Leg& leg, const Choice& choice, double u, double& weight) const;
+    bool advance(Place& place, Vec direction, const Ray& ray, const Leg& leg, const Choice& choice, double u,
+                 double& weight) const;
     double path(Random& random, const Decisions& decisions);
     double sunlightAtAir(const Place& place, Vec direction, const Local& local, Random& random) const;
     double sunlightAtGround(const Place& place, Random& random) const;

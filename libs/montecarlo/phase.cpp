@@ -6,11 +6,13 @@
 #include <cmath>
 #include <numbers>
 
-namespace sky::montecarlo {
-namespace {
+namespace sky::montecarlo
+{
+namespace
+{
 
 constexpr std::size_t guideBins = 4096;
-constexpr double linearWithin = 0.01;   // the sampled density departs from the true one by about this much at most
+constexpr double linearWithin = 0.01; // the sampled density departs from the true one by about this much at most
 constexpr int maxHalvings = 8;
 
 } // namespace

@@ -3,7 +3,8 @@
 
 #include <vector>
 
-namespace sky::montecarlo {
+namespace sky::montecarlo
+{
 
 /// Phase function, log-linear in the scattering angle between nodes (linear where an end is zero), used as tabulated:
 /// if its integral is not 1, the difference is lost or gained at each scattering.
@@ -30,7 +31,7 @@ private:
     std::size_t intervalOf(double angle) const;
 
     std::vector<double> angles_, values_, logs_;
-    std::vector<std::size_t> guide_;         ///< first interval of each of equal bins of the angle
+    std::vector<std::size_t> guide_; ///< first interval of each of equal bins of the angle
     // The density sampled is linear in the angle between these finer nodes.
     std::vector<double> nodes_, density_, cumulative_;
     double integral_ = 0;

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-namespace sky::montecarlo {
-namespace {
+namespace sky::montecarlo
+{
+namespace
+{
 
 using physics::Medium;
 using physics::Species;
@@ -53,8 +55,12 @@ std::array<double, 6> legendre(double y)
 /// Coefficients of powers of y from those of P_0 .. P_5.
 std::array<double, 6> powersFromLegendre(const std::array<double, 6>& c)
 {
-    return {c[0] - c[2] / 2 + 3 * c[4] / 8,       c[1] - 3 * c[3] / 2 + 15 * c[5] / 8, 3 * c[2] / 2 - 30 * c[4] / 8,
-            5 * c[3] / 2 - 70 * c[5] / 8,         35 * c[4] / 8,                       63 * c[5] / 8};
+    return {c[0] - c[2] / 2 + 3 * c[4] / 8,
+            c[1] - 3 * c[3] / 2 + 15 * c[5] / 8,
+            3 * c[2] / 2 - 30 * c[4] / 8,
+            5 * c[3] / 2 - 70 * c[5] / 8,
+            35 * c[4] / 8,
+            63 * c[5] / 8};
 }
 
 } // namespace
@@ -74,7 +80,8 @@ Profile::Profile(const Medium& medium, int wavelength)
                 const double altitude = low + t * (high - low);
                 // dX = 2 r dh: the weights integrate over X.
                 const double weight = gauss.weight[k] * (high - low) / parts * (planetRadius_ + altitude);
-                samples.push_back({radialSquare(planetRadius_, altitude), extinctionOf(medium, wavelength, i, t), weight});
+                samples.push_back(
+                    {radialSquare(planetRadius_, altitude), extinctionOf(medium, wavelength, i, t), weight});
             }
             const double end = part + 1 == parts ? high : low + (high - low) * (part + 1) / parts;
             stations.push_back(radialSquare(planetRadius_, end));
@@ -147,8 +154,8 @@ double Profile::Shell::integral(const Ray& ray, double begin, double end) const
     const double half = 0.5 * (end - begin), centre = 0.5 * (end + begin);
     // X departs from a straight line by half^2 at most. Where that is small the integrand is of degree 5 in s.
     if (half * half * inverseHalf < 0.02)
-        return half * (weight3[0] * value(ray.at(centre)) + weight3[1] * (value(ray.at(centre - half * node3)) +
-                                                                           value(ray.at(centre + half * node3))));
+        return half * (weight3[0] * value(ray.at(centre)) +
+                       weight3[1] * (value(ray.at(centre - half * node3)) + value(ray.at(centre + half * node3))));
     double sum = 0;
     for (int k = 0; k < 3; ++k)
         sum += weight6[k] * (value(ray.at(centre - half * node6[k])) + value(ray.at(centre + half * node6[k])));
@@ -163,7 +170,8 @@ int Profile::shellAt(double x) const
 }
 
 /// Calls visit(shell, begin, end) for the parts of the ray inside the atmosphere, in order.
-template<class Visit> void Profile::walk(const Ray& ray, Visit&& visit) const
+template<class Visit>
+void Profile::walk(const Ray& ray, Visit&& visit) const
 {
     int k = shellAt(ray.x0);
     double s = 0;
@@ -176,7 +184,7 @@ template<class Visit> void Profile::walk(const Ray& ray, Visit&& visit) const
         }
         if (k < 0 && ray.hitsGround())
             return;
-        k = std::max(k, 0);   // a perigee exactly on the ground
+        k = std::max(k, 0); // a perigee exactly on the ground
     }
     for (; k < shellCount(); ++k) {
         const double end = std::max(s, ray.up(shells_[k].high));

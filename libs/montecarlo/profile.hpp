@@ -7,11 +7,12 @@
 #include <array>
 #include <vector>
 
-namespace sky::montecarlo {
+namespace sky::montecarlo
+{
 
 /// The part of a ray inside one shell.
 struct Segment {
-    double begin = 0, end = 0;   ///< distances from the start of the ray, m
+    double begin = 0, end = 0; ///< distances from the start of the ray, m
     double opticalDepth = 0;
     int shell = 0;
 };
@@ -20,7 +21,7 @@ struct Segment {
 struct Leg {
     std::vector<Segment> segments;
     double opticalDepth = 0;
-    double length = 0;           ///< m; to the ground or to the top of the atmosphere
+    double length = 0; ///< m; to the ground or to the top of the atmosphere
     bool hitsGround = false;
 };
 
@@ -52,18 +53,19 @@ public:
 private:
     static constexpr int terms = 6;
     struct Shell {
-        double low, high;                   // X, m^2
-        double middle, inverseHalf;         // y = (X - middle) * inverseHalf is in [-1, 1]
-        std::array<double, terms> power;    // extinction = sum power[k] y^k
+        double low, high;                // X, m^2
+        double middle, inverseHalf;      // y = (X - middle) * inverseHalf is in [-1, 1]
+        std::array<double, terms> power; // extinction = sum power[k] y^k
         double value(double x) const;
         double integral(const Ray& ray, double begin, double end) const;
     };
     struct Sample {
-        double x, beta, weight;             // Gauss nodes inside the intervals of the tables
+        double x, beta, weight; // Gauss nodes inside the intervals of the tables
     };
     void fit(const std::vector<double>& stations, const std::vector<Sample>& samples, double tolerance);
     int shellAt(double x) const;
-    template<class Visit> void walk(const Ray& ray, Visit&& visit) const;
+    template<class Visit>
+    void walk(const Ray& ray, Visit&& visit) const;
 
     double planetRadius_;
     double topOfAtmosphere_;

@@ -5,11 +5,12 @@
 #include <numbers>
 #include <vector>
 
-namespace sky::montecarlo {
+namespace sky::montecarlo
+{
 
 struct Rule {
-    std::vector<double> node;     ///< in (-1, 1)
-    std::vector<double> weight;   ///< sum 2
+    std::vector<double> node;   ///< in (-1, 1)
+    std::vector<double> weight; ///< sum 2
 };
 
 /// Gauss-Legendre rule with n nodes: Newton's iteration on P_n from Tricomi's estimate of its zeros.

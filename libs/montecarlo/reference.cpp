@@ -7,8 +7,10 @@
 #include <optional>
 #include <sstream>
 
-namespace sky::montecarlo {
-namespace {
+namespace sky::montecarlo
+{
+namespace
+{
 
 /// The scene seen from where the line of sight enters the atmosphere; nothing if it misses it.
 std::optional<Scene> sceneOf(const physics::Medium& medium, const Query& query)
@@ -31,7 +33,8 @@ std::optional<Scene> sceneOf(const physics::Medium& medium, const Query& query)
 }
 
 /// Throws RangeError with the parts as one sentence unless the condition holds.
-template<class... Parts> void require(bool condition, const Parts&... parts)
+template<class... Parts>
+void require(bool condition, const Parts&... parts)
 {
     if (condition)
         return;
@@ -85,8 +88,8 @@ Reference::Reference(physics::Medium medium) : medium_(std::move(medium)), slots
 {
     require(medium_.planetRadius > 0 && medium_.topOfAtmosphere > 0,
             "planet radius and top of the atmosphere: expected positive lengths");
-    require(medium_.sunAngularRadius >= 0 && medium_.sunAngularRadius < 1.5,
-            "angular radius of the Sun ", medium_.sunAngularRadius, " rad: expected 0 to 1.5");
+    require(medium_.sunAngularRadius >= 0 && medium_.sunAngularRadius < 1.5, "angular radius of the Sun ",
+            medium_.sunAngularRadius, " rad: expected 0 to 1.5");
     require(increasing(medium_.altitudes) && medium_.altitudes.front() >= 0 && medium_.altitudes.front() <= 0,
             "altitude nodes: expected at least two, increasing from 0");
     require(medium_.groundAlbedo.size() == medium_.wavelengthsNm.size() && allWithin(medium_.groundAlbedo, 0, 1),
@@ -109,10 +112,10 @@ const Air& Reference::air(int wavelength) const
 
 void Reference::check(const Query& query) const
 {
-    require(query.wavelength >= 0 && query.wavelength < medium_.wavelengthCount(),
-            "wavelength index ", query.wavelength, ": expected 0 to ", medium_.wavelengthCount() - 1);
-    require(query.altitude >= 0 && std::isfinite(query.altitude),
-            "camera altitude ", query.altitude, " m: expected a finite value >= 0");
+    require(query.wavelength >= 0 && query.wavelength < medium_.wavelengthCount(), "wavelength index ",
+            query.wavelength, ": expected 0 to ", medium_.wavelengthCount() - 1);
+    require(query.altitude >= 0 && std::isfinite(query.altitude), "camera altitude ", query.altitude,
+            " m: expected a finite value >= 0");
     require(std::isfinite(query.sunZenithAngle) && std::isfinite(query.viewZenithAngle) &&
                 std::isfinite(query.relativeAzimuth),
             "sun zenith angle, view zenith angle and relative azimuth: expected finite values");

@@ -12,36 +12,38 @@
 #include <string>
 #include <vector>
 
-namespace sky::montecarlo {
+namespace sky::montecarlo
+{
 
 class Air;
 
 /// Where the camera stands, where the Sun is and where the camera looks. SI, radians.
 struct Query {
-    double altitude = 0;         ///< m, >= 0; may be above the atmosphere
-    double sunZenithAngle = 0;   ///< of the centre of the disc, at the camera
-    double viewZenithAngle = 0;  ///< 0 up, pi/2 horizontal
-    double relativeAzimuth = 0;  ///< of the view minus that of the Sun: 0 = towards the Sun
-    int wavelength = 0;          ///< index into Medium::wavelengthsNm
+    double altitude = 0;        ///< m, >= 0; may be above the atmosphere
+    double sunZenithAngle = 0;  ///< of the centre of the disc, at the camera
+    double viewZenithAngle = 0; ///< 0 up, pi/2 horizontal
+    double relativeAzimuth = 0; ///< of the view minus that of the Sun: 0 = towards the Sun
+    int wavelength = 0;         ///< index into Medium::wavelengthsNm
 };
 
 struct Settings {
-    int orders = 0;                      ///< events counted; 0 = all, ended by Russian roulette
-    double relativeError = 1e-3;         ///< stop when stderr / (single + multiple) is below; 0 = use maxPaths
-    std::int64_t maxPaths = 1 << 24;     ///< rounded up to whole batches
-    double maxSeconds = 0;               ///< 0 = no limit. The only setting that makes a result depend on the machine
-    std::uint64_t seed = 1;              ///< queries with the same seed still have independent errors
-    int threads = 0;                     ///< 0 = one per processor. Does not change the result
+    int orders = 0;                  ///< events counted; 0 = all, ended by Russian roulette
+    double relativeError = 1e-3;     ///< stop when stderr / (single + multiple) is below; 0 = use maxPaths
+    std::int64_t maxPaths = 1 << 24; ///< rounded up to whole batches
+    double maxSeconds = 0;           ///< 0 = no limit. The only setting that makes a result depend on the machine
+    std::uint64_t seed = 1;          ///< queries with the same seed still have independent errors
+    int threads = 0;                 ///< 0 = one per processor. Does not change the result
 };
 
-/// Radiance per unit solar irradiance on a plane facing the Sun outside the atmosphere, 1/sr. The sky is single + multiple;
-/// light whose last event is the ground in direct view is in neither. Orders are counted as in docs/reference.md.
+/// Radiance per unit solar irradiance on a plane facing the Sun outside the atmosphere, 1/sr. The sky is single +
+/// multiple; light whose last event is the ground in direct view is in neither. Orders are counted as in
+/// docs/reference.md.
 struct Result {
-    double single = 0;           ///< scattered exactly once, in the air; by quadrature
-    double multiple = 0;         ///< orders 2 and above (up to Settings::orders)
-    double singleStderr = 0;     ///< change of `single` when its steps were last halved
-    double multipleStderr = 0;   ///< one standard error of `multiple`
-    double groundDirect = 0;     ///< ground in direct view, lit by direct sunlight only; 0 if the ray misses it
+    double single = 0;         ///< scattered exactly once, in the air; by quadrature
+    double multiple = 0;       ///< orders 2 and above (up to Settings::orders)
+    double singleStderr = 0;   ///< change of `single` when its steps were last halved
+    double multipleStderr = 0; ///< one standard error of `multiple`
+    double groundDirect = 0;   ///< ground in direct view, lit by direct sunlight only; 0 if the ray misses it
     std::int64_t paths = 0;
 
     double total() const { return single + multiple; }
@@ -76,7 +78,7 @@ private:
     void check(const Query& query) const;
 
     physics::Medium medium_;
-    mutable std::deque<Slot> slots_;   // deque: slots cannot be moved
+    mutable std::deque<Slot> slots_; // deque: slots cannot be moved
 };
 
 /// One line of a table of reference radiances.

@@ -4,7 +4,8 @@
 #include "montecarlo/air.hpp"
 #include "montecarlo/sun.hpp"
 
-namespace sky::montecarlo {
+namespace sky::montecarlo
+{
 
 /// A camera inside the atmosphere, the direction it looks in and the Sun.
 struct Scene {
@@ -15,7 +16,7 @@ struct Scene {
 
 struct Integral {
     double value = 0;
-    double error = 0;   ///< change when all steps were halved for the last time
+    double error = 0; ///< change when all steps were halved for the last time
 };
 
 /// Radiance of sunlight scattered exactly once in the air, per unit solar irradiance, 1/sr.

@@ -7,7 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-namespace sky::montecarlo {
+namespace sky::montecarlo
+{
 
 class SunDisc
 {
@@ -25,14 +26,15 @@ public:
     /// A point of the disc, uniform in solid angle, from two random numbers in [0, 1).
     Vec point(double u1, double u2) const
     {
-        const double half = std::sqrt(u1) * std::sin(0.5 * radius_);   // sin of half the distance from the centre
+        const double half = std::sqrt(u1) * std::sin(0.5 * radius_); // sin of half the distance from the centre
         const double cosine = 1 - 2 * half * half, sine = 2 * half * std::sqrt(1 - half * half);
         return turned(centre_, cosine, sine, 2 * std::numbers::pi * u2);
     }
 
     /// Average of f(direction) over the disc, f = 0 below the horizon of `place`. The edge of the horizon is met
     /// exactly, so the rules integrate a smooth function.
-    template<class F> double average(double planetRadius, const Place& place, const Rule& across, const Rule& along, F&& f) const
+    template<class F>
+    double average(double planetRadius, const Place& place, const Rule& across, const Rule& along, F&& f) const
     {
         const double x = radialSquare(planetRadius, place.altitude);
         const double horizonMu = -std::sqrt(x) / (planetRadius + place.altitude);
@@ -58,8 +60,8 @@ public:
             double chord = 0;
             for (std::size_t k = 0; k < along.node.size(); ++k) {
                 const double v = low + scale * (1 + along.node[k]);
-                chord += along.weight[k] * f(std::cos(u) * (std::cos(v) * centre_ + std::sin(v) * upwards) +
-                                             std::sin(u) * sideways);
+                chord += along.weight[k] *
+                         f(std::cos(u) * (std::cos(v) * centre_ + std::sin(v) * upwards) + std::sin(u) * sideways);
             }
             sum += across.weight[i] * 0.5 * std::numbers::pi * radius_ * std::cos(t) * std::cos(u) * scale * chord;
         }

@@ -12,7 +12,8 @@
 using namespace sky;
 using namespace sky::montecarlo;
 
-namespace {
+namespace
+{
 
 PhaseTable sampleAerosol()
 {
@@ -37,7 +38,7 @@ TEST_CASE("phase function: log-linear in the angle, linear where an end is zero"
 
 TEST_CASE("phase function: integral is that of the table, not forced to one")
 {
-    CHECK(sampleAerosol().integral() == Approx(0.99948).margin(1e-5));   // published with 5 digits
+    CHECK(sampleAerosol().integral() == Approx(0.99948).margin(1e-5)); // published with 5 digits
 }
 
 TEST_CASE("phase function: sampled angles have the density of the table")

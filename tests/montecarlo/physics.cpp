@@ -15,7 +15,8 @@ using namespace sky;
 using namespace sky::montecarlo;
 using std::numbers::pi;
 
-namespace {
+namespace
+{
 
 constexpr double degree = pi / 180;
 
@@ -27,7 +28,10 @@ Settings fixed(std::int64_t paths, int orders = 0)
 /// Camera on top of the flat layer looking down at cosine mu from the nadir, the Sun at cosine mu0 from the zenith.
 Query fromAbove(double mu, double mu0, double azimuth = 0.3)
 {
-    return {.altitude = 1000, .sunZenithAngle = std::acos(mu0), .viewZenithAngle = pi - std::acos(mu), .relativeAzimuth = azimuth};
+    return {.altitude = 1000,
+            .sunZenithAngle = std::acos(mu0),
+            .viewZenithAngle = pi - std::acos(mu),
+            .relativeAzimuth = azimuth};
 }
 
 Query fromBelow(double mu, double mu0, double azimuth = 0.3)
@@ -90,7 +94,7 @@ TEST_CASE("multiple scattering vanishes as the square of a thin layer")
 {
     const Reference thin(test::flatLayer(1e-6, 1, 0, test::isotropicPhase));
     const Result r = thin.radiance(fromBelow(0.7, 0.4), fixed(20000));
-    CHECK(r.multiple < 2e-5 * r.single);   // a factor of optical depth times its logarithm
+    CHECK(r.multiple < 2e-5 * r.single); // a factor of optical depth times its logarithm
     CHECK(r.multiple > 0);
 }
 
@@ -106,15 +110,16 @@ TEST_CASE("isotropic, flat and deep: Chandrasekhar's H function")
                 const Result r = reference.radiance(fromAbove(mu, mu0), fixed(16384));
                 const double expected = albedo / (4 * pi) * mu0 / (mu + mu0) * h(mu) * h(mu0);
                 const double z = (r.total() - expected) / r.multipleStderr;
-                INFO("albedo " << albedo << " mu " << mu << " mu0 " << mu0 << " relative stderr " << r.multipleStderr / r.total());
+                INFO("albedo " << albedo << " mu " << mu << " mu0 " << mu0 << " relative stderr "
+                               << r.multipleStderr / r.total());
                 CHECK(std::abs(z) < 3.5);
                 CHECK(r.multipleStderr < 0.005 * r.total());
                 deviation += r.total() / expected - 1;
                 squares += z * z;
                 ++count;
             }
-        CHECK(std::abs(deviation / count) < 2.5e-3);   // 9 rows, each to 0.2-0.4 %
-        CHECK(squares / count < 2.5);                  // chi-square of 9: above 22.5 in 1 of 130 seeds
+        CHECK(std::abs(deviation / count) < 2.5e-3); // 9 rows, each to 0.2-0.4 %
+        CHECK(squares / count < 2.5);                // chi-square of 9: above 22.5 in 1 of 130 seeds
     }
 }
 
@@ -133,22 +138,26 @@ TEST_CASE("energy: air that does not absorb, over white ground, returns all the 
             down += weight * below.total();
             up += weight * above.total();
             // `down` reaches the top through the ground with a factor below 1.
-            variance += weight * weight * (below.multipleStderr * below.multipleStderr + above.multipleStderr * above.multipleStderr);
+            variance += weight * weight *
+                        (below.multipleStderr * below.multipleStderr + above.multipleStderr * above.multipleStderr);
         }
         groundView += 2 * pi * 0.5 * gauss.weight[i] * mu * std::exp(-depth / mu);
     }
-    const double ground = down + mu0 * std::exp(-depth / mu0);   // irradiance; white: all of it leaves, as ground / pi per sr
+    const double ground =
+        down + mu0 * std::exp(-depth / mu0); // irradiance; white: all of it leaves, as ground / pi per sr
     const double leaving = up + ground / pi * groundView;
     const double noise = std::sqrt(variance) / mu0;
     INFO("returned " << leaving / mu0 << " +- " << noise);
     CHECK(noise < 1e-3);
-    CHECK(leaving / mu0 == Approx(1).margin(3 * noise + 5e-4));   // 5e-4: eight nodes in mu
+    CHECK(leaving / mu0 == Approx(1).margin(3 * noise + 5e-4)); // 5e-4: eight nodes in mu
 }
 
 TEST_CASE("reciprocity: swapping the Sun and the camera keeps the reflection of the layer")
 {
     const Reference reference(test::flatLayer(2, 0.95, 0, henyeyGreenstein));
-    struct Pair { double a, b, azimuth; };
+    struct Pair {
+        double a, b, azimuth;
+    };
     for (const Pair p : {Pair{0.2, 0.9, 0.5}, {0.5, 1.0, 0}, {0.3, 0.6, 2.5}}) {
         const Result ab = reference.radiance(fromAbove(p.a, p.b, p.azimuth), fixed(32768));
         const Result ba = reference.radiance(fromAbove(p.b, p.a, p.azimuth), fixed(32768));
@@ -164,8 +173,11 @@ TEST_CASE("order 1 by random paths is order 1 by quadrature")
 {
     const Reference reference(test::sampleEarth(test::Aerosol::Yes));
     for (const double sza : {40.0, 89.0, 95.0}) {
-        const Query query{.altitude = 2000, .sunZenithAngle = sza * degree, .viewZenithAngle = 80 * degree,
-                          .relativeAzimuth = 0.2, .wavelength = 2};
+        const Query query{.altitude = 2000,
+                          .sunZenithAngle = sza * degree,
+                          .viewZenithAngle = 80 * degree,
+                          .relativeAzimuth = 0.2,
+                          .wavelength = 2};
         const double single = reference.radiance(query, fixed(2, 1)).single;
         const Result paths = reference.singleByPaths(query, fixed(65536));
         INFO("sun zenith angle " << sza << ": " << paths.multiple / single << " +- " << paths.multipleStderr / single);
@@ -190,7 +202,7 @@ TEST_CASE("orders add up: the truncated sums grow towards the sum of all")
         previous = r.multiple;
         previousStep = step;
     }
-    const Result many = reference.radiance(query, fixed(131072, 24));   // order 25 is below 1e-9
+    const Result many = reference.radiance(query, fixed(131072, 24)); // order 25 is below 1e-9
     CHECK(std::abs(many.multiple - all.multiple) < 3 * std::hypot(many.multipleStderr, all.multipleStderr));
 }
 
@@ -202,7 +214,8 @@ TEST_CASE("empty air and air that only absorbs: nothing but the ground shines")
         const Result r = reference.radiance(fromAbove(mu, mu0), fixed(4096));
         CHECK(r.single == 0);
         CHECK(r.multiple == 0);
-        CHECK(r.groundDirect == Approx(albedo / pi * mu0 * std::exp(-depth * (1 / mu + 1 / mu0))).epsilon(1e-6).margin(1e-300));
+        CHECK(r.groundDirect ==
+              Approx(albedo / pi * mu0 * std::exp(-depth * (1 / mu + 1 / mu0))).epsilon(1e-6).margin(1e-300));
     }
 }
 
@@ -212,22 +225,23 @@ TEST_CASE("ground lit by half a Sun: irradiance 2 alpha / (3 pi) of a disc cut b
     medium.sunAngularRadius = 0.0046;
     const Reference reference(medium);
     const Result r = reference.radiance({.altitude = 1, .sunZenithAngle = pi / 2, .viewZenithAngle = pi}, fixed(2));
-    CHECK(r.groundDirect == Approx(2 * 0.0046 / (3 * pi) / pi).epsilon(1e-5));   // to the square of the radius
+    CHECK(r.groundDirect == Approx(2 * 0.0046 / (3 * pi) / pi).epsilon(1e-5)); // to the square of the radius
 }
 
 TEST_CASE("camera at, above and far above the top of the atmosphere")
 {
     const Reference reference(test::sampleEarth(test::Aerosol::No));
     const auto seenFrom = [&](double altitude, double vza) {
-        return reference.radiance({.altitude = altitude, .sunZenithAngle = 0.7, .viewZenithAngle = vza, .wavelength = 1}, fixed(2048));
+        return reference.radiance(
+            {.altitude = altitude, .sunZenithAngle = 0.7, .viewZenithAngle = vza, .wavelength = 1}, fixed(2048));
     };
     CHECK(seenFrom(400e3, pi).single == Approx(seenFrom(120e3, pi).single).epsilon(1e-9));
     CHECK(seenFrom(400e3, pi).groundDirect == Approx(seenFrom(120e3, pi).groundDirect).epsilon(1e-9));
     CHECK(seenFrom(400e3, pi).multiple > 0);
-    CHECK(seenFrom(400e3, 0.5).total() == 0);     // away from the planet
-    CHECK(seenFrom(400e3, 1.75).total() == 0);    // past its limb
+    CHECK(seenFrom(400e3, 0.5).total() == 0);  // away from the planet
+    CHECK(seenFrom(400e3, 1.75).total() == 0); // past its limb
     CHECK(seenFrom(120e3, 0).total() == 0);
-    CHECK(seenFrom(0, pi).total() == 0);          // standing on the ground, looking into it
+    CHECK(seenFrom(0, pi).total() == 0); // standing on the ground, looking into it
     CHECK(seenFrom(0, pi).groundDirect > 0);
 }
 
@@ -265,7 +279,8 @@ TEST_CASE("queries and media outside their range are refused by name")
     auto medium = test::flatLayer(1, 1, 0, test::isotropicPhase);
     const Reference reference(medium);
     CHECK_THROWS_WITH(reference.radiance({.altitude = -1}, {}), Catch::Contains("camera altitude -1 m"));
-    CHECK_THROWS_WITH(reference.radiance({.wavelength = 1}, {}), Catch::Contains("wavelength index 1: expected 0 to 0"));
+    CHECK_THROWS_WITH(reference.radiance({.wavelength = 1}, {}),
+                      Catch::Contains("wavelength index 1: expected 0 to 0"));
     medium.species[0].numberDensity = {1, -1};
     CHECK_THROWS_AS(Reference(medium), RangeError);
     CHECK_THROWS_WITH(Reference(medium), Catch::Contains("number density of `particles`"));
@@ -274,9 +289,16 @@ TEST_CASE("queries and media outside their range are refused by name")
 TEST_CASE("a table of rows has the columns of the published tables")
 {
     std::ostringstream out;
-    const Query query{.altitude = 2000, .sunZenithAngle = 94 * degree, .viewZenithAngle = 89.5 * degree, .relativeAzimuth = 45 * degree};
-    writeCsv(out, {{"earth", 4, query, {.single = 0.25, .multiple = 0.125, .multipleStderr = 0.001}}, {"thin", 0, query, {}}}, {391.3333});
-    CHECK(out.str() == "atmosphere,orders,altitude_m,sza_deg,vza_deg,relaz_deg,lambda_nm,L1_per_sr,Lms_per_sr,Lms_stderr,L0_per_sr\n"
-                       "earth,4,2000,94,89.5,45,391.333,2.50000000e-01,1.25000000e-01,1.000e-03,0.00000000e+00\n"
-                       "thin,all,2000,94,89.5,45,391.333,0.00000000e+00,0.00000000e+00,0.000e+00,0.00000000e+00\n");
+    const Query query{.altitude = 2000,
+                      .sunZenithAngle = 94 * degree,
+                      .viewZenithAngle = 89.5 * degree,
+                      .relativeAzimuth = 45 * degree};
+    writeCsv(
+        out,
+        {{"earth", 4, query, {.single = 0.25, .multiple = 0.125, .multipleStderr = 0.001}}, {"thin", 0, query, {}}},
+        {391.3333});
+    CHECK(out.str() ==
+          "atmosphere,orders,altitude_m,sza_deg,vza_deg,relaz_deg,lambda_nm,L1_per_sr,Lms_per_sr,Lms_stderr,L0_per_sr\n"
+          "earth,4,2000,94,89.5,45,391.333,2.50000000e-01,1.25000000e-01,1.000e-03,0.00000000e+00\n"
+          "thin,all,2000,94,89.5,45,391.333,0.00000000e+00,0.00000000e+00,0.000e+00,0.00000000e+00\n");
 }

@@ -11,7 +11,8 @@
 using namespace sky;
 using namespace sky::montecarlo;
 
-namespace {
+namespace
+{
 
 double tableAt(const physics::Medium& medium, int wavelength, double altitude)
 {
@@ -61,7 +62,8 @@ TEST_CASE("vertical optical depths of the sample atmosphere")
                                0.04828 + 0.00533 + 0.01562};
     for (int i = 0; i < 4; ++i) {
         const Profile profile(medium, i);
-        CHECK(profile.opticalDepthToSpace(rayAt(profile, 0, 1)) == Approx(expected[i]).margin(1.5e-5));   // rounded to 5 digits
+        CHECK(profile.opticalDepthToSpace(rayAt(profile, 0, 1)) ==
+              Approx(expected[i]).margin(1.5e-5)); // rounded to 5 digits
         CHECK(profile.shellCount() <= 64);
     }
 }
@@ -69,11 +71,22 @@ TEST_CASE("vertical optical depths of the sample atmosphere")
 TEST_CASE("optical depth along slanted and grazing rays agrees with many short steps")
 {
     const auto medium = test::sampleEarth(test::Aerosol::Yes);
-    struct Case { double altitude, mu; };
+    struct Case {
+        double altitude, mu;
+    };
     for (const int wavelength : {0, 2}) {
         const Profile profile(medium, wavelength);
-        for (const Case c : {Case{0, 1}, {0, 0.3}, {0, 0}, {0, 1e-3}, {2000, -0.02}, {12e3, 0}, {12e3, -0.06}, {30e3, -0.09},
-                             {30e3, -0.05}, {110e3, -0.18}, {119.9e3, 0.5}}) {
+        for (const Case c : {Case{0, 1},
+                             {0, 0.3},
+                             {0, 0},
+                             {0, 1e-3},
+                             {2000, -0.02},
+                             {12e3, 0},
+                             {12e3, -0.06},
+                             {30e3, -0.09},
+                             {30e3, -0.05},
+                             {110e3, -0.18},
+                             {119.9e3, 0.5}}) {
             INFO("altitude " << c.altitude << " mu " << c.mu << " wavelength " << wavelength);
             // The ozone's wiggles between nodes are smoothed by a few 1e-6 at 579 nm.
             CHECK(profile.opticalDepthToSpace(rayAt(profile, c.altitude, c.mu)) ==
@@ -90,7 +103,7 @@ TEST_CASE("a step of the density is neither smeared nor stepped over")
     medium.species[0].numberDensity = {0, 0, 1, 1, 0, 0};
     medium.species[0].extinctionCrossSection = {0.1};
     const Profile profile(medium, 0);
-    CHECK(profile.opticalDepthToSpace(rayAt(profile, 0, 1)) == Approx(2.0).epsilon(1e-4));   // edges of 1 mm
+    CHECK(profile.opticalDepthToSpace(rayAt(profile, 0, 1)) == Approx(2.0).epsilon(1e-4)); // edges of 1 mm
     CHECK(profile.opticalDepthToSpace(rayAt(profile, 410, 1)) == Approx(1.0).epsilon(1e-4));
     CHECK(profile.opticalDepthToSpace(rayAt(profile, 421, 0.5)) == Approx(0).margin(1e-12));
 }

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-namespace sky::test {
-namespace {
+namespace sky::test
+{
+namespace
+{
 
 using std::numbers::pi;
 
@@ -28,7 +30,8 @@ std::vector<double> tabulated(const std::vector<double>& nodes, const std::funct
 }
 
 /// The same phase function at every wavelength.
-std::vector<double> achromatic(const std::vector<double>& angles, std::size_t wavelengths, const std::function<double(double)>& f)
+std::vector<double> achromatic(const std::vector<double>& angles, std::size_t wavelengths,
+                               const std::function<double(double)>& f)
 {
     std::vector<double> values;
     for (const double angle : angles)
@@ -64,8 +67,14 @@ double aerosolPhase(double angle)
 
 } // namespace
 
-double isotropicPhase(double) { return 1 / (4 * pi); }
-double rayleighPhase(double angle) { return 3 / (16 * pi) * (1 + std::cos(angle) * std::cos(angle)); }
+double isotropicPhase(double)
+{
+    return 1 / (4 * pi);
+}
+double rayleighPhase(double angle)
+{
+    return 3 / (16 * pi) * (1 + std::cos(angle) * std::cos(angle));
+}
 
 physics::Medium sampleEarth(Aerosol aerosol)
 {
@@ -77,7 +86,8 @@ physics::Medium sampleEarth(Aerosol aerosol)
         medium.wavelengthsNm.push_back(360 + i * 470.0 / 15);
     medium.solarIrradiance.assign(4, 1.0);
     medium.groundAlbedo = {0.037, 0.043, 0.090, 0.047};
-    // Steps of 60 m; the kinks of the ozone at 8, 21.5 and 39 km are nodes, with steps of 6 m where its logarithm bends.
+    // Steps of 60 m; the kinks of the ozone at 8, 21.5 and 39 km are nodes, with steps of 6 m where its logarithm
+    // bends.
     for (int i = 0; i <= 2000; ++i) {
         medium.altitudes.push_back(60.0 * i);
         for (int k = 1; k < 10 && i >= 133 && i < 650; ++k)

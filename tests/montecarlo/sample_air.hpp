@@ -5,7 +5,8 @@
 
 #include <functional>
 
-namespace sky::test {
+namespace sky::test
+{
 
 enum class Aerosol { No, Yes };
 
