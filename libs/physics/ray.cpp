@@ -46,7 +46,7 @@ void RayTracer::walk(const double h, const double mu, const bool hitsGround)
         bool turn = false;
         if (down) {
             const double crossing = distanceToShell(p, h, mu, shells[k], true);
-            if (crossing >= 0 && (hitsGround || crossing < perigee)) {
+            if (crossing >= 0 && (hitsGround || (k > 0 && crossing < perigee))) { // rounding must not end the horizon's ray
                 s1 = crossing;
                 next = k - 1;
             } else {
