@@ -136,25 +136,7 @@ Stencil MomentGrid::altitudeStencil(const double altitude) const
     return stencil;
 }
 
-Stencil MomentGrid::sunStencil(const double position) const
-{
-    const int n = sunCount_, k = std::clamp(static_cast<int>(position), 0, n - 2);
-    const double t = std::clamp(position - k, 0., 1.);
-    Stencil s{{std::max(k - 1, 0), k, k + 1, std::min(k + 2, n - 1)},
-              {t * (-0.5 + t * (1 - 0.5 * t)), 1 + t * t * (-2.5 + 1.5 * t), t * (0.5 + t * (2 - 1.5 * t)), t * t * (-0.5 + 0.5 * t)}};
-    // Beyond the ends the curve goes on straight.
-    if (k == 0) {
-        s.weight[1] += 2 * s.weight[0];
-        s.weight[2] -= s.weight[0];
-        s.weight[0] = 0;
-    }
-    if (k + 2 >= n) {
-        s.weight[2] += 2 * s.weight[3];
-        s.weight[1] -= s.weight[3];
-        s.weight[3] = 0;
-    }
-    return s;
-}
+Stencil MomentGrid::sunStencil(const double position) const { return uniformStencil(position, sunCount_); }
 
 const double* Moments::at(const int altitude, const int sun) const
 {

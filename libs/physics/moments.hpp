@@ -1,16 +1,10 @@
 #pragma once
 #include "physics/geometry.hpp"
 #include "physics/profile.hpp"
-#include <array>
+#include "physics/stencil.hpp"
 #include <vector>
 
 namespace sky::physics {
-
-/// Four neighbours and their weights on one axis of a table: what an interpolation is, once the place is known.
-struct Stencil {
-    std::array<int, 4> index;
-    std::array<double, 4> weight;
-};
 
 /// Grid of the radiance moments: altitude x elevation of the Sun.
 ///

@@ -1,0 +1,123 @@
+#include "model/scattering_table.hpp"
+#include "base/error.hpp"
+#include "physics/geometry.hpp"
+#include "physics/stencil.hpp"
+#include "physics/table_axes.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace sky::model {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+/// Layers kept in memory: an observer needs four, one who moves a few more.
+constexpr std::size_t layersKept = 8;
+
+/// Place of x among increasing nodes as an index with a fraction.
+double positionAmong(const std::vector<double>& nodes, double x)
+{
+    if (nodes.size() < 2 || x <= nodes.front())
+        return 0;
+    if (x >= nodes.back())
+        return static_cast<double>(nodes.size() - 1);
+    const auto k = std::upper_bound(nodes.begin(), nodes.end(), x) - nodes.begin() - 1;
+    return static_cast<double>(k) + (x - nodes[k]) / (nodes[k + 1] - nodes[k]);
+}
+
+physics::Stencil stencilOn(double position, int n)
+{
+    if (n < 2)
+        return {{0, 0, 0, 0}, {0, 1, 0, 0}};
+    return physics::uniformStencil(position, n);
+}
+
+} // namespace
+
+ScatteringTable::ScatteringTable(const Model& model, const std::string& name) : model_(model), table_(model.table(name))
+{
+    if (table_.axes.size() != 4 || table_.rowAxes != 2 || table_.axes[2].nodes.size() % 2 != 0 || table_.axes[3].nodes.size() < 2 ||
+        table_.axes[2].nodes.size() < 4)
+        throw ModelError(model.directory().string() + ", table \"" + name +
+                         "\": expected the axes altitude, sunElevation, viewZenithAngle (even, 4 or more) and relativeAzimuth.");
+    channels_ = table_.channelCount();
+    layers_ = static_cast<int>(table_.axes[0].nodes.size());
+    suns_ = static_cast<int>(table_.axes[1].nodes.size());
+    views_ = static_cast<int>(table_.axes[2].nodes.size());
+    azimuths_ = static_cast<int>(table_.axes[3].nodes.size());
+}
+
+const std::vector<float>& ScatteringTable::layer(const int index) const
+{
+    const auto found = read_.find(index);
+    if (found != read_.end())
+        return found->second;
+    while (read_.size() >= layersKept) // the farthest from where we are
+        read_.erase(std::abs(read_.begin()->first - index) > std::abs(read_.rbegin()->first - index) ? read_.begin()
+                                                                                                    : std::prev(read_.end()));
+    return read_[index] = model_.readRows(table_.name, index * suns_, suns_);
+}
+
+std::vector<float> ScatteringTable::slice(const double altitude, const double sunElevation) const
+{
+    const std::size_t columns = std::size_t(views_) * azimuths_ * channels_;
+    if (sunElevation < table_.axes[1].nodes.front() - 1e-12)
+        return std::vector<float>(columns, 0.F);
+    // Nodes are uniform in the distance to the horizon and in v: place the point on those measures, not on altitude and elevation.
+    const physics::Planet planet{model_.manifest().planetRadius, model_.manifest().topOfAtmosphere};
+    std::vector<double> measures, vs;
+    for (const double h : table_.axes[0].nodes)
+        measures.push_back(std::sqrt(physics::radiusExcessSquared(planet, h)));
+    const double scale = std::sinh(3.) / (pi / 2);
+    for (const double e : table_.axes[1].nodes)
+        vs.push_back(std::asinh(e * scale));
+    const auto a = stencilOn(positionAmong(measures, std::sqrt(physics::radiusExcessSquared(planet, std::max(0., altitude)))), layers_);
+    const auto b = stencilOn(positionAmong(vs, std::asinh(sunElevation * scale)), suns_);
+
+    std::vector<float> result(columns);
+    std::array<std::vector<float>, 4> rows; // each altitude interpolated over the Sun
+    for (int i = 0; i < 4; ++i) {
+        if (a.weight[i] == 0)
+            continue;
+        const auto& values = layer(a.index[i]);
+        rows[i].resize(columns);
+        for (std::size_t c = 0; c < columns; ++c)
+            rows[i][c] = static_cast<float>(physics::interpolateLog(
+                b, {double(values[b.index[0] * columns + c]), double(values[b.index[1] * columns + c]),
+                    double(values[b.index[2] * columns + c]), double(values[b.index[3] * columns + c])}));
+    }
+    for (std::size_t c = 0; c < columns; ++c) {
+        std::array<double, 4> v{};
+        for (int i = 0; i < 4; ++i)
+            v[i] = a.weight[i] == 0 ? 0 : double(rows[i][c]);
+        result[c] = static_cast<float>(physics::interpolateLog(a, v));
+    }
+    return result;
+}
+
+void ScatteringTable::sample(const std::vector<float>& slice, const double altitude, const double viewElevation,
+                             const double relativeAzimuth, double* const result) const
+{
+    const physics::Planet planet{model_.manifest().planetRadius, model_.manifest().topOfAtmosphere};
+    const double horizon = physics::horizonElevation(planet, altitude), angle = viewElevation - horizon;
+    const bool ground = angle < 0;
+    const int half = views_ / 2;
+    const double range = ground ? pi / 2 + horizon : pi / 2 - horizon;
+    const double t = std::asinh(std::min(range, std::abs(angle)) / physics::horizonAngleScale) /
+                     std::asinh(range / physics::horizonAngleScale);
+    const auto view = stencilOn(t * (half - 1), half);
+    const double folded = std::abs(std::remainder(relativeAzimuth, 2 * pi));
+    const auto azimuth = physics::mirroredStencil(folded / pi * (azimuths_ - 1), azimuths_);
+    for (int c = 0; c < channels_; ++c) {
+        std::array<double, 4> v{};
+        for (int i = 0; i < 4; ++i) {
+            const int row = ground ? half - 1 - view.index[i] : half + view.index[i];
+            for (int j = 0; j < 4; ++j)
+                v[i] += azimuth.weight[j] * double(slice[(std::size_t(row) * azimuths_ + azimuth.index[j]) * channels_ + c]);
+            v[i] = std::max(0., v[i]);
+        }
+        result[c] = physics::interpolateLog(view, v);
+    }
+}
+
+} // namespace sky::model
