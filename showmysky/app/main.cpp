@@ -1,0 +1,48 @@
+// showmysky: what was asked goes to the subcommand that does it; errors become sentences and exit codes.
+
+#include "base/error.hpp"
+#include "showmysky/error.hpp"
+#include "subcommand.hpp"
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+namespace {
+
+constexpr int exitFailure = 1, exitInput = 2;
+
+int complain(const std::string& message, int code)
+{
+    std::cerr << "showmysky: " << message << std::endl;
+    return code;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    using namespace showmysky;
+    CLI::App app{"Shows the sky of a model made by calcmysky."};
+    app.name("showmysky");
+    app.set_version_flag("--version", SHOWMYSKY_VERSION);
+    app.require_subcommand(1);
+    const auto subcommands = app::makeSubcommands();
+    std::vector<CLI::App*> entries;
+    for (const auto& subcommand : subcommands)
+        entries.push_back(subcommand->addTo(app));
+    try {
+        app.parse(argc, argv);
+        for (std::size_t i = 0; i < entries.size(); ++i)
+            if (*entries[i])
+                return subcommands[i]->run();
+    } catch (const CLI::ParseError& error) {
+        return error.get_exit_code() == 0 ? app.exit(error) : (app.exit(error), exitInput);
+    } catch (const sky::Error& error) {
+        return complain(error.what(), error.inputMustChange() ? exitInput : exitFailure);
+    } catch (const Error& error) {
+        const bool input = error.kind() != ErrorKind::openGl && error.kind() != ErrorKind::other;
+        return complain(error.what(), input ? exitInput : exitFailure);
+    } catch (const std::exception& error) {
+        return complain(std::string("Something failed that should not: ") + error.what(), exitFailure);
+    }
+    return exitFailure;
+}

@@ -1,0 +1,12 @@
+#include "subcommand.hpp"
+
+namespace showmysky::app {
+
+std::vector<std::unique_ptr<Subcommand>> makeSubcommands()
+{
+    std::vector<std::unique_ptr<Subcommand>> all;
+    all.push_back(makeRender());
+    return all;
+}
+
+} // namespace showmysky::app

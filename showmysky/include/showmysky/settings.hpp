@@ -1,0 +1,58 @@
+#pragma once
+// What a scene is: everything that decides the radiance of a direction, and nothing about the screen.
+//
+// Frame at the camera: x North, y West, z zenith. Azimuths are counted from North over East, clockwise seen from above.
+// Metres and radians.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace showmysky {
+
+/// Parts of the light, each on or off.
+struct Layers {
+    bool zeroOrder = true;          ///< the ground by day; with `solarDisc` the Sun itself
+    bool solarDisc = false;         ///< the attenuated disc: far too bright for most pictures, so it is asked for
+    bool singleScattering = true;
+    bool multipleScattering = true;
+    bool lightPollution = false;    ///< needs a model that was computed with it
+    std::vector<std::string> hiddenScatterers; ///< whose single scattering is left out, by the names in the model
+};
+
+enum class EclipseMode { off, on };
+
+/// Which tables of a model the light comes from.
+enum class Source {
+    moments, ///< the radiance moments, gathered into small tables of this sky
+    textures ///< 4D scattering tables, interpolated
+};
+
+struct Sun {
+    double azimuth = 0;                 ///< rad
+    double zenithAngle = 0.7853981634;  ///< rad, 0 .. pi
+    std::optional<double> angularRadius{}; ///< rad; empty: as the model says
+};
+
+struct Moon {
+    double azimuth = 0;         ///< rad
+    double zenithAngle = 3.1415926536; ///< rad, 0 .. pi
+    double distance = 384400e3; ///< m, from the planet's centre
+};
+
+struct SceneSettings {
+    double altitude = 0; ///< of the camera, m, >= 0; may be above the atmosphere
+    Sun sun{};
+    Moon moon{};
+    Layers layers{};
+    Source source = Source::moments;
+    EclipseMode eclipse = EclipseMode::off;
+    bool onTheFlySingleScattering = false; ///< of the textures source: single scattering gathered, not looked up
+    double lightPollutionLuminance = 0;    ///< of the ground, cd m^-2
+    bool pseudoMirror = false;             ///< below the horizon a mirror image of the sky instead of the ground
+    bool textureFiltering = true;          ///< false shows the texels of the sky tables
+    /// Factors on the model's solar spectrum, one per wavelength; empty: as the model says.
+    std::vector<double> solarSpectrumFactors{};
+};
+
+} // namespace showmysky
