@@ -1,0 +1,50 @@
+#pragma once
+// Media of the tests, beside those of the Monte Carlo tables (tests/montecarlo/sample_air.hpp): small, from formulas.
+
+#include "../montecarlo/sample_air.hpp"
+#include "physics/medium.hpp"
+#include <cmath>
+#include <functional>
+
+namespace sky::test {
+
+constexpr double pi = 3.14159265358979323846;
+
+/// sr^-1; source: Henyey & Greenstein 1941.
+inline double henyeyGreenstein(double g, double angle)
+{
+    return (1 - g * g) / (4 * pi * std::pow(1 + g * g - 2 * g * std::cos(angle), 1.5));
+}
+
+/// flatLayer bent to a planet's radius; 1 km thick unless `top` says otherwise, point-like Sun.
+inline physics::Medium layer(double opticalDepth, double singleScatteringAlbedo, double groundAlbedo,
+                             const std::function<double(double)>& phase, double radius = 6.4e9, double top = 1000)
+{
+    physics::Medium medium = flatLayer(opticalDepth, singleScatteringAlbedo, groundAlbedo, phase);
+    medium.planetRadius = radius;
+    medium.topOfAtmosphere = top;
+    medium.altitudes = {0, top};
+    medium.species[0].extinctionCrossSection = {opticalDepth / top};
+    return medium;
+}
+
+/// Other densities for the only species of a medium, at other altitudes.
+inline physics::Medium withDensity(physics::Medium medium, std::vector<double> altitudes, std::vector<double> densities)
+{
+    medium.altitudes = std::move(altitudes);
+    medium.topOfAtmosphere = medium.altitudes.back();
+    medium.species[0].numberDensity = std::move(densities);
+    return medium;
+}
+
+/// Molecules alone: exp(-h / 8 km) to 120 km over an Earth, vertical optical depth as given, isotropic unless told.
+inline physics::Medium exponentialAir(double opticalDepth, double groundAlbedo = 0,
+                                      const std::function<double(double)>& phase = isotropicPhase)
+{
+    auto medium = withDensity(flatLayer(1, 1, groundAlbedo, phase), {0, 120e3}, {1, std::exp(-15.)});
+    medium.planetRadius = 6.371e6;
+    medium.species[0].extinctionCrossSection = {opticalDepth / (8e3 * (1 - std::exp(-15.)))};
+    return medium;
+}
+
+} // namespace sky::test

@@ -1,0 +1,179 @@
+#include "physics/moments.hpp"
+#include "media.hpp"
+#include "physics/directions.hpp"
+#include "physics/optics.hpp"
+#include <catch2/catch.hpp>
+#include <algorithm>
+
+using namespace sky::physics;
+using sky::test::pi;
+
+namespace {
+
+const Planet earth{6.371e6, 120e3};
+const std::vector<double> unevenLevels{0, 1, 30, 800, 801, 5e3, 30e3, 120e3};
+
+double measure(double altitude) { return std::sqrt(radiusExcessSquared(earth, altitude)); }
+
+template<typename Function>
+double through(const Stencil& stencil, Function f)
+{
+    double sum = 0;
+    for (int i = 0; i < 4; ++i)
+        if (stencil.weight[i] != 0)
+            sum += stencil.weight[i] * f(stencil.index[i]);
+    return sum;
+}
+
+} // namespace
+
+TEST_CASE("stencils over altitude: partition of unity, straight lines kept, levels met")
+{
+    const MomentGrid grid(earth, unevenLevels, -0.3, 16);
+    const auto line = [&](int k) { return 3 - 2e-5 * measure(grid.altitudes()[k]); };
+    for (const double h : {0., 1e-6, 0.5, 1., 17., 800., 800.5, 801., 4e3, 77e3, 119.99e3, 120e3}) {
+        const Stencil s = grid.altitudeStencil(h);
+        INFO("h " << h);
+        CHECK(through(s, [](int) { return 1.; }) == Approx(1).epsilon(1e-13));
+        CHECK(through(s, line) == Approx(3 - 2e-5 * measure(h)).epsilon(1e-12));
+    }
+    for (int k = 0; k < grid.altitudeCount(); ++k) {
+        const Stencil s = grid.altitudeStencil(grid.altitudes()[k]);
+        CHECK(through(s, [&](int i) { return i == k ? 1. : 0.; }) == Approx(1).epsilon(1e-9)); // measure rounds
+    }
+    // Beyond the ends the end holds.
+    CHECK(through(grid.altitudeStencil(130e3), line) == Approx(line(7)));
+}
+
+TEST_CASE("stencils over altitude: a parabola is kept between levels that have two neighbours")
+{
+    const MomentGrid grid(earth, unevenLevels, -0.3, 16);
+    const auto parabola = [&](int k) { return std::pow(measure(grid.altitudes()[k]) / 1e5 - 3, 2); };
+    for (const double h : {2., 17., 400., 800.2, 3e3, 29e3})
+        CHECK(through(grid.altitudeStencil(h), parabola) == Approx(std::pow(measure(h) / 1e5 - 3, 2)).epsilon(1e-11));
+}
+
+TEST_CASE("stencils over the Sun: partition of unity, straight lines kept, slopes continuous")
+{
+    const MomentGrid grid(earth, unevenLevels, -0.3, 9);
+    const double values[9] = {4, 1, -2, 5, 5, 3, 8, 0, 1};
+    const auto f = [&](double position) { return through(grid.sunStencil(position), [&](int i) { return values[i]; }); };
+    for (double x = 0; x <= 8; x += 0.0625) {
+        CHECK(through(grid.sunStencil(x), [](int) { return 1.; }) == Approx(1).epsilon(1e-14));
+        CHECK(through(grid.sunStencil(x), [](int i) { return 2. * i - 7; }) == Approx(2 * x - 7).margin(1e-13));
+    }
+    const double d = 1e-5;
+    for (int k = 0; k <= 8; ++k) {
+        CHECK(f(k) == Approx(values[k]).margin(1e-13));
+        if (k > 0 && k < 8) {
+            const double left = (f(k) - f(k - d)) / d, right = (f(k + d) - f(k)) / d;
+            CHECK(left == Approx(right).margin(1e-3)); // second derivatives of some 30 times d
+        }
+    }
+}
+
+TEST_CASE("stencils over altitude: value and slope continuous at every level")
+{
+    const MomentGrid grid(earth, unevenLevels, -0.3, 9);
+    const double values[8] = {4, 1, -2, 5, 5, 3, 8, 0};
+    const auto f = [&](double m) {
+        const double q = m * m, h = q / (std::sqrt(earth.radius * earth.radius + q) + earth.radius);
+        return through(grid.altitudeStencil(h), [&](int i) { return values[i]; });
+    };
+    for (int k = 1; k < 7; ++k) {
+        const double m = measure(unevenLevels[k]), gap = std::min(m - measure(unevenLevels[k - 1]), measure(unevenLevels[k + 1]) - m);
+        const double d = 1e-4 * gap;
+        const double left = (f(m) - f(m - d)) / d, right = (f(m + d) - f(m)) / d, scale = 20 / gap;
+        INFO("level " << unevenLevels[k]);
+        CHECK(f(m) == Approx(values[k]).margin(1e-5));
+        CHECK(left == Approx(right).margin(2e-3 * scale)); // second derivatives up to 40 / gap^2
+    }
+}
+
+TEST_CASE("axis of the Sun: elevation and position are inverse, the ends are the ends")
+{
+    for (const double lowest : {-pi / 2, -0.6, -0.05}) {
+        const MomentGrid grid(earth, unevenLevels, lowest, 24);
+        CHECK(grid.sunElevation(0) == Approx(lowest).epsilon(1e-12));
+        CHECK(grid.sunElevation(23) == Approx(pi / 2).epsilon(1e-12));
+        for (double x = 0; x <= 23; x += 0.25)
+            CHECK(grid.sunPosition(grid.sunElevation(x)) == Approx(x).margin(1e-10));
+        CHECK(grid.sunPosition(-2) == 0);
+        CHECK(grid.sunPosition(2) == 23);
+    }
+}
+
+TEST_CASE("grid of the moments: levels at the edges of a cloud and inside it, in order from ground to top")
+{
+    const auto medium = sky::test::withDensity(sky::test::layer(1, 1, 0, sky::test::isotropicPhase, 6.371e6),
+                                               {0, 1000, 1000.01, 2000, 2000.01, 20e3}, {0, 0, 1, 1, 0, 0});
+    const Profile profile(medium);
+    const MomentGrid grid(profile, {10. / 1000}, 12, 16);
+    const auto& h = grid.altitudes();
+    CHECK(h.front() == 0);
+    CHECK(h.back() == 20e3);
+    CHECK(std::is_sorted(h.begin(), h.end()));
+    CHECK(std::adjacent_find(h.begin(), h.end()) == h.end());
+    const auto near = [&](double altitude) {
+        return std::any_of(h.begin(), h.end(), [&](double level) { return std::abs(level - altitude) < 1; });
+    };
+    CHECK(near(1000));
+    CHECK(near(2000));
+    double widest = 0;
+    for (std::size_t k = 0; k + 1 < h.size(); ++k)
+        if (h[k] >= 999 && h[k + 1] <= 2001)
+            widest = std::max(widest, h[k + 1] - h[k]);
+    CHECK(widest * 10 / 1000 <= 0.5 + 1e-3); // optical depth between levels: the bound of the grid
+}
+
+TEST_CASE("grid of the moments: the lowest Sun leaves all air in the dark")
+{
+    const auto medium = sky::test::exponentialAir(1);
+    const MomentGrid grid(Profile(medium), {1.}, 12, 16);
+    // The Earth's shadow covers air to the height h beyond twice the dip of h.
+    CHECK(grid.lowestElevation() < 2 * horizonElevation(earth, 60e3));
+    CHECK(grid.lowestElevation() >= -pi / 2);
+}
+
+TEST_CASE("moments: interpolation gives back what stands at the nodes, and exponentials in between")
+{
+    Moments m{MomentGrid(earth, unevenLevels, -0.3, 9), 1, 2, {}, {}};
+    for (int a = 0; a < 8; ++a)
+        for (int j = 0; j < 9; ++j)
+            for (int lm = 0; lm < 3; ++lm)
+                for (int w = 0; w < 2; ++w)
+                    m.values.push_back(lm == 0 ? -1e-6 * measure(unevenLevels[a]) + 0.7 * j + w : 0.1 * lm + 0.02 * w);
+    for (int j = 0; j < 9; ++j)
+        for (int w = 0; w < 2; ++w)
+            m.groundIrradiance.push_back(std::exp(0.5 * j - w));
+    std::vector<double> field(6), ground(2);
+    for (const double position : {0., 3., 3.3, 8.}) {
+        const double muSun = std::sin(m.grid.sunElevation(position));
+        for (const double h : {0., 800., 12e3, 120e3}) {
+            m.interpolate(h, muSun, field.data());
+            const double whole = std::exp(-1e-6 * measure(h) + 0.7 * position + 1);
+            CHECK(field[1] == Approx(whole).epsilon(1e-7)); // asin near the zenith
+            CHECK(field[1 * 2 + 1] == Approx(0.12 * whole).epsilon(1e-7));
+            CHECK(field[2 * 2 + 1] == Approx(0.22 * whole).epsilon(1e-7));
+        }
+        m.interpolateGround(muSun, ground.data());
+        CHECK(ground[0] == Approx(std::exp(0.5 * position)).epsilon(1e-7));
+    }
+}
+
+TEST_CASE("directions of a level: weights cover the sphere, panels part at horizon and horizontal")
+{
+    MomentSettings settings;
+    for (const double h : {0., 1e-4, 100., 12e3, 120e3}) {
+        const Directions set = directionsAt(earth, h, settings);
+        double whole = 0, flux = 0;
+        for (std::size_t d = 0; d < set.mu.size(); ++d) {
+            whole += set.weight[d];
+            flux += set.weight[d] * std::abs(set.mu[d]);
+            CHECK(set.hitsGround[d] == hitsGround(earth, h, set.mu[d]));
+        }
+        CHECK(whole == Approx(2).epsilon(1e-13));
+        CHECK(flux == Approx(1).epsilon(1e-13)); // |mu| is linear on every panel
+        CHECK(set.mu.size() == std::size_t(settings.groundDirections + settings.skyDirections + (h > 0 ? settings.limbDirections : 0)));
+    }
+}

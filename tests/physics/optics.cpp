@@ -1,0 +1,78 @@
+#include "physics/optics.hpp"
+#include "physics/harmonics.hpp"
+#include "media.hpp"
+#include <catch2/catch.hpp>
+
+using namespace sky::physics;
+using sky::test::henyeyGreenstein;
+using sky::test::layer;
+
+TEST_CASE("delta-M scaling: the truncated share is the first moment left out: g^(L+1)")
+{
+    for (const double g : {0.5, 0.76, 0.9})
+        for (const int degree : {2, 4, 8}) {
+            const auto medium = layer(100, 0.8, 0, [&](double t) { return henyeyGreenstein(g, t); });
+            const Optics optics = makeOptics(medium, degree, true);
+            const double f = optics.truncation[0];
+            CHECK(f == Approx(std::pow(g, degree + 1)).margin(1e-5)); // table of the phase function
+            for (int l = 0; l <= degree; ++l)
+                CHECK(optics.moment(0, l, 0) == Approx((std::pow(g, l) - f) / (1 - f)).margin(2e-5));
+        }
+}
+
+TEST_CASE("delta-M scaling: absorption and transport scattering stay, the moments add up to the true ones")
+{
+    const double g = 0.85, albedo = 0.9, sigma = 100. / 1000;
+    const auto medium = layer(100, albedo, 0, [&](double t) { return henyeyGreenstein(g, t); });
+    const auto truth = phaseMoments(medium, medium.species[0], 0, 7);
+    const Optics optics = makeOptics(medium, 6, true);
+    const double f = optics.truncation[0];
+    // What is truncated goes straight on: it is neither absorbed nor scattered.
+    CHECK(optics.extinction[0] - optics.scattering[0] == Approx(sigma * (1 - albedo)).epsilon(1e-12));
+    CHECK(optics.scattering[0] == Approx((1 - f) * sigma * albedo).epsilon(1e-12));
+    // sigma (1 - g) governs diffusion (similarity).
+    CHECK(optics.scattering[0] * (optics.moment(0, 0, 0) - optics.moment(0, 1, 0)) ==
+          Approx(sigma * albedo * (truth[0] - truth[1])).epsilon(1e-12));
+    for (int l = 0; l <= 6; ++l)
+        CHECK((1 - f) * optics.moment(0, l, 0) + f == Approx(truth[l]).epsilon(1e-12));
+}
+
+TEST_CASE("delta-M scaling: leaves gentle phase functions and thin air alone, and everything if told so")
+{
+    const auto rayleigh = layer(100, 1, 0, sky::test::rayleighPhase);
+    for (const int degree : {2, 4, 8}) {
+        const Optics optics = makeOptics(rayleigh, degree, true);
+        CHECK(optics.truncation[0] == 0);
+        CHECK(optics.extinction[0] == 0.1);
+        CHECK(optics.moment(0, 2, 0) == Approx(0.1).margin(1e-6));
+    }
+    const auto haze = layer(100, 1, 0, [](double t) { return henyeyGreenstein(0.9, t); });
+    CHECK(makeOptics(haze, 4, true).truncation[0] > 0);
+    const Optics plain = makeOptics(haze, 4, false);
+    CHECK(plain.truncation[0] == 0);
+    const auto thin = layer(1e-3, 1, 0, [](double t) { return henyeyGreenstein(0.9, t); });
+    CHECK(makeOptics(thin, 4, true).truncation[0] == 0);
+    CHECK(plain.moment(0, 4, 0) == Approx(std::pow(0.9, 4)).epsilon(1e-4));
+}
+
+TEST_CASE("optics: absorbers extinguish and do not scatter")
+{
+    const auto medium = sky::test::sampleEarth(sky::test::Aerosol::Yes);
+    const Optics optics = makeOptics(medium, 4, true);
+    CHECK(optics.scatterers == std::vector<int>{0, 1});
+    for (int w = 0; w < 4; ++w) {
+        CHECK(optics.extinction[2 * 4 + w] == medium.species[2].extinctionCrossSection[w]);
+        CHECK(optics.scattering[2 * 4 + w] == 0);
+    }
+    // A species that scatters at some wavelengths only counts as a scatterer, and is not one at the others.
+    auto partial = medium;
+    partial.species[1].singleScatteringAlbedo = {0, 1, 0, 1};
+    const Optics mixed = makeOptics(partial, 4, true);
+    CHECK(mixed.scatterers == std::vector<int>{0, 1});
+    for (int w = 0; w < 4; ++w)
+        CHECK(mixed.scattering[4 + w] == (w % 2 ? Approx(optics.scattering[4 + w]) : Approx(0)));
+    CHECK(mixed.moment(1, 1, 3) == Approx(optics.moment(1, 1, 3)));
+    auto dark = medium;
+    dark.species[1].singleScatteringAlbedo = {0, 0, 0, 0};
+    CHECK(makeOptics(dark, 4, true).scatterers == std::vector<int>{0});
+}

@@ -1,0 +1,91 @@
+#include "physics/profile.hpp"
+#include "media.hpp"
+#include <catch2/catch.hpp>
+
+using namespace sky::physics;
+using sky::test::withDensity;
+
+namespace {
+
+Medium base() { return sky::test::layer(1, 1, 0, sky::test::isotropicPhase); }
+
+double density(const Profile& profile, double altitude)
+{
+    double n = -1;
+    profile.densities(profile.intervalAt(altitude), altitude, &n);
+    return n;
+}
+
+} // namespace
+
+TEST_CASE("profile: exponential air needs two shells, however finely it is tabulated")
+{
+    std::vector<double> h, n;
+    for (int i = 0; i <= 3000; ++i) {
+        h.push_back(40. * i);
+        n.push_back(3e25 * std::exp(-h.back() / 8e3));
+    }
+    const Profile profile(withDensity(base(), h, n));
+    CHECK(profile.shells() == std::vector<double>{0, 120e3});
+    for (const double altitude : {0., 1., 7777., 60e3, 119999., 120e3})
+        CHECK(density(profile, altitude) == Approx(3e25 * std::exp(-altitude / 8e3)).epsilon(1e-12)); // rounding of ln n
+    CHECK(profile.steepness(0) == Approx(1 / 8e3));
+}
+
+TEST_CASE("profile: a smooth curve is followed within the tolerance by few shells")
+{
+    std::vector<double> h, n;
+    for (int i = 0; i <= 4000; ++i) {
+        h.push_back(25. * i);
+        n.push_back(std::exp(-std::pow((h.back() - 25e3) / 15e3, 2)));
+    }
+    const double tolerance = 1e-3;
+    const Profile profile(withDensity(base(), h, n), tolerance);
+    // Chords of ln n, a parabola of curvature 2 / 15 km^2: 1e-3 allows chords of 1.3 km.
+    CHECK(profile.shells().size() < 120);
+    // Nodes fit to the tolerance, what lies between them a little less; below 1e-7 of the mean density nothing matters.
+    for (double altitude = 3; altitude < 80e3; altitude += 123.4)
+        CHECK(density(profile, altitude) == Approx(std::exp(-std::pow((altitude - 25e3) / 15e3, 2))).epsilon(1.5 * tolerance).margin(1e-7));
+    CHECK(profile.shells().front() == 0);
+    CHECK(profile.shells().back() == h.back());
+}
+
+TEST_CASE("profile: step edges of a cloud stay where they are")
+{
+    const double edge = 1e-3;
+    const Profile profile(withDensity(base(), {0, 1000, 1000 + edge, 2000, 2000 + edge, 9000}, {0, 0, 5, 5, 0, 0}));
+    CHECK(density(profile, 999.999) == 0);
+    CHECK(density(profile, 1000 + 2 * edge) == Approx(5));
+    CHECK(density(profile, 1999.99) == Approx(5));
+    CHECK(density(profile, 2000 + 2 * edge) == Approx(0).margin(1e-12));
+    CHECK(density(profile, 1000 + 0.5 * edge) == Approx(2.5).epsilon(1e-4)); // linear to a zero; 1e3 / 1e-3 digits lost
+    for (const double shell : {1000., 1000 + edge, 2000., 2000 + edge})
+        CHECK(std::find(profile.shells().begin(), profile.shells().end(), shell) != profile.shells().end());
+}
+
+TEST_CASE("profile: thin ozone-like pieces, linear down to zero, and emptiness")
+{
+    const Profile profile(withDensity(base(), {0, 10e3, 20e3, 30e3, 80e3}, {0, 0, 1, 0, 0}));
+    CHECK(density(profile, 5e3) == 0);
+    CHECK(density(profile, 12e3) == Approx(0.2));
+    CHECK(density(profile, 27e3) == Approx(0.3));
+    CHECK(density(profile, 50e3) == 0);
+
+    const Profile empty(withDensity(base(), {0, 10e3, 80e3}, {0, 0, 0}));
+    for (const double altitude : {0., 10e3, 80e3})
+        CHECK(density(empty, altitude) == 0);
+    CHECK(empty.steepness(0) == 0);
+}
+
+TEST_CASE("profile: every altitude has its interval, the ends included")
+{
+    const Profile profile(withDensity(base(), {0, 10, 30, 60}, {1, 5, 2, 7}));
+    REQUIRE(profile.shells() == std::vector<double>{0, 10, 30, 60});
+    CHECK(profile.intervalAt(0) == 0);
+    CHECK(profile.intervalAt(9.999) == 0);
+    CHECK(profile.intervalAt(10) == 1);
+    CHECK(profile.intervalAt(59) == 2);
+    CHECK(profile.intervalAt(60) == 2);
+    CHECK(profile.intervalAt(-1) == 0);  // rounding below the ground
+    CHECK(profile.intervalAt(100) == 2); // and above the top
+}
