@@ -1,0 +1,123 @@
+#include "solver/iterate.hpp"
+#include "../gl/context_for_tests.hpp"
+#include "../montecarlo/sample_air.hpp"
+#include "physics/harmonics.hpp"
+#include "physics/source_iteration.hpp"
+#include <cmath>
+
+using namespace sky;
+
+namespace {
+
+struct World {
+    physics::Medium medium;
+    physics::MomentSettings settings;
+    physics::Profile profile;
+    physics::Optics optics;
+    physics::SunTable sun;
+    physics::MomentGrid grid;
+    World(physics::Medium m, const physics::MomentSettings& s)
+        : medium(std::move(m)), settings(s), profile(medium), optics(physics::makeOptics(medium, s.degree, s.truncatePeaks)),
+          sun(profile, optics, medium.sunAngularRadius, 48, 64), grid(profile, largest(), s.altitudes, s.suns)
+    {
+    }
+    World(const World&) = delete;
+    solver::Scene scene() const { return {medium, profile, optics, sun}; }
+    physics::Moments twin(int events) const { return iterateSource(medium, profile, optics, sun, grid, settings, events); }
+
+private:
+    std::vector<double> largest() const
+    {
+        std::vector<double> sigma(optics.species, 0.);
+        for (int s = 0; s < optics.species; ++s)
+            for (int w = 0; w < optics.wavelengths; ++w)
+                sigma[s] = std::max(sigma[s], optics.extinction[s * optics.wavelengths + w]);
+        return sigma;
+    }
+};
+
+/// Coarse, for a software driver: what is compared are two ways to compute the same sums.
+physics::MomentSettings smallSettings(int degree)
+{
+    physics::MomentSettings s;
+    s.altitudes = 6;
+    s.suns = 28;
+    s.degree = degree;
+    s.groundDirections = 3;
+    s.limbDirections = 2;
+    s.skyDirections = 4;
+    s.azimuths = degree + 1;
+    s.directNodes = 16;
+    s.nodes = 8;
+    return s;
+}
+
+/// Largest difference of ln I_00, of ratios, and of ln of the ground's irradiance, for Suns above an elevation.
+struct Difference {
+    double logarithm = 0, ratio = 0, ground = 0;
+};
+
+Difference difference(const physics::Moments& a, const physics::Moments& b, double lowestSunDeg)
+{
+    Difference d;
+    REQUIRE(a.values.size() == b.values.size());
+    for (int h = 0; h < a.grid.altitudeCount(); ++h)
+        for (int j = 0; j < a.grid.sunCount(); ++j) {
+            if (a.grid.sunElevation(j) * 180 / 3.14159265358979323846 < lowestSunDeg)
+                continue;
+            for (int i = 0; i < physics::harmonicCount(a.degree) * a.wavelengths; ++i)
+                (i < a.wavelengths ? d.logarithm : d.ratio) =
+                    std::max(i < a.wavelengths ? d.logarithm : d.ratio, std::abs(a.at(h, j)[i] - b.at(h, j)[i]));
+            for (int w = 0; w < a.wavelengths; ++w)
+                d.ground = std::max(d.ground, std::abs(std::log(a.groundIrradiance[j * a.wavelengths + w] /
+                                                                b.groundIrradiance[j * a.wavelengths + w])));
+        }
+    return d;
+}
+
+} // namespace
+
+TEST_CASE("iteration on the GPU agrees with its twin in double precision, event by event", "[gl]")
+{
+    const auto context = gl::testing::context();
+    if (!context)
+        return;
+    for (const auto aerosol : {test::Aerosol::No, test::Aerosol::Yes}) {
+        const World world(test::sampleEarth(aerosol), smallSettings(aerosol == test::Aerosol::No ? 2 : 4));
+        double progress = 0;
+        const auto field = solver::iterate(context->api(), world.scene(), world.grid, world.settings, {4, false, 0}, true, [&](double fraction) {
+            CHECK(fraction >= progress - 1e-12);
+            progress = fraction;
+        });
+        CHECK(progress == 1);
+        CHECK(field.eventCount == 3);
+        REQUIRE(field.perEvent.size() == 3);
+        const Difference first = difference(field.perEvent[0], world.twin(1), -8), total = difference(field.total, world.twin(3), -8);
+        // Sunlight in float32: the same table, the same nodes.
+        CHECK(first.logarithm < 1e-3);
+        CHECK(first.ratio < 1e-3);
+        CHECK(first.ground < 1e-3);
+        // Later events read the field on a refined axis of the Sun, linearly, where the twin interpolates cubically.
+        CHECK(total.logarithm < 3e-3);
+        CHECK(total.ratio < 3e-3);
+        CHECK(total.ground < 3e-3);
+    }
+}
+
+TEST_CASE("iteration: all orders are more than four and no more than the remainder says", "[gl]")
+{
+    const auto context = gl::testing::context();
+    if (!context)
+        return;
+    const World world(test::sampleEarth(test::Aerosol::No), smallSettings(2));
+    const auto quiet = [](double) {};
+    const auto all = solver::iterate(context->api(), world.scene(), world.grid, world.settings, {0, true, 1e-3}, false, quiet);
+    CHECK(all.eventCount > 4);
+    CHECK(all.remainder < 1e-3);
+    CHECK(all.perEvent.empty());
+    const auto many = solver::iterate(context->api(), world.scene(), world.grid, world.settings, {all.eventCount + 6, false, 0}, false, quiet);
+    // The series was closed: what five more events add differs from the estimate by less than the remainder.
+    const Difference d = difference(all.total, many.total, 0);
+    CHECK(d.logarithm < 1e-3);
+    CHECK(all.total.at(0, world.grid.sunCount() - 1)[0] > many.total.at(0, world.grid.sunCount() - 1)[0] - 1e-4);
+}
