@@ -40,6 +40,14 @@ ScatteringTable::ScatteringTable(const Model& model, const std::string& name) : 
         table_.axes[2].nodes.size() < 4)
         throw ModelError(model.directory().string() + ", table \"" + name +
                          "\": expected the axes altitude, sunElevation, viewZenithAngle (even, 4 or more) and relativeAzimuth.");
+    const auto& mapping = table_.axes[1].mapping;
+    const auto vDark = mapping.parameters.find("vDark"), scale = mapping.parameters.find("scale");
+    if (mapping.id != "sun-from-horizon" || vDark == mapping.parameters.end() || scale == mapping.parameters.end() ||
+        scale->second != physics::sunTableScale || !(vDark->second < 1))
+        throw ModelError(model.directory().string() + ", table \"" + name +
+                         "\": expected the mapping \"sun-from-horizon\" with scale " + std::to_string(physics::sunTableScale) +
+                         " on the axis of the Sun.");
+    vDark_ = vDark->second;
     channels_ = table_.channelCount();
     layers_ = static_cast<int>(table_.axes[0].nodes.size());
     suns_ = static_cast<int>(table_.axes[1].nodes.size());
@@ -61,18 +69,16 @@ const std::vector<float>& ScatteringTable::layer(const int index) const
 std::vector<float> ScatteringTable::slice(const double altitude, const double sunElevation) const
 {
     const std::size_t columns = std::size_t(views_) * azimuths_ * channels_;
-    if (sunElevation < table_.axes[1].nodes.front() - 1e-12)
-        return std::vector<float>(columns, 0.F);
-    // Nodes are uniform in the distance to the horizon and in v: place the point on those measures, not on altitude and elevation.
+    // Nodes are uniform in the distance to the horizon and in the Sun's v: place the point on those measures.
     const physics::Planet planet{model_.manifest().planetRadius, model_.manifest().topOfAtmosphere};
-    std::vector<double> measures, vs;
+    const double sun = physics::sunElevationPosition(planet, altitude, vDark_, suns_, sunElevation);
+    if (sun < 0)
+        return std::vector<float>(columns, 0.F);
+    std::vector<double> measures;
     for (const double h : table_.axes[0].nodes)
         measures.push_back(std::sqrt(physics::radiusExcessSquared(planet, h)));
-    const double scale = std::sinh(3.) / (pi / 2);
-    for (const double e : table_.axes[1].nodes)
-        vs.push_back(std::asinh(e * scale));
     const auto a = stencilOn(positionAmong(measures, std::sqrt(physics::radiusExcessSquared(planet, std::max(0., altitude)))), layers_);
-    const auto b = stencilOn(positionAmong(vs, std::asinh(sunElevation * scale)), suns_);
+    const auto b = stencilOn(sun, suns_);
 
     std::vector<float> result(columns);
     std::array<std::vector<float>, 4> rows; // each altitude interpolated over the Sun

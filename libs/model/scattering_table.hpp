@@ -8,7 +8,7 @@
 
 namespace sky::model {
 
-/// One 4D table: [altitude][sun elevation][view][relative azimuth], "multiple-scattering" for instance.
+/// One 4D table: [altitude][Sun][view][relative azimuth], "multiple-scattering" for instance.
 ///
 /// How it is interpolated: Catmull-Rom over the node index on every axis; of logarithms on the axes altitude, Sun and view (radiance
 /// spans decades along them, and is never negative), of values in azimuth. Altitude and Sun first: they change rarely. Where a
@@ -42,6 +42,7 @@ private:
     const Model& model_;
     Table table_;
     int channels_, views_, azimuths_, suns_, layers_;
+    double vDark_;
     mutable std::map<int, std::vector<float>> read_;
 };
 

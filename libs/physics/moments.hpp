@@ -25,6 +25,9 @@ public:
     int altitudeCount() const { return static_cast<int>(altitudes_.size()); }
     int sunCount() const { return sunCount_; }
     double lowestElevation() const { return lowest_; }
+    /// How far below the horizon the Sun must stand for all air that is seen from the ground to be dark, rad: two horizon dips
+    /// of the air's upper end, of the three that make the lowest elevation.
+    double darkDepth() const { return -2.2 / 3.2 * lowest_; }
     /// Elevation of the Sun at position v in 0..sunCount-1, rad.
     double sunElevation(double position) const;
     /// Position 0..sunCount-1 of a Sun's elevation, clamped to the grid.

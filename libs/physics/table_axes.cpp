@@ -39,6 +39,30 @@ std::vector<double> viewMuNodes(const Planet& planet, const double altitude, con
     return mu;
 }
 
+std::vector<double> sunElevationNodes(const Planet& planet, const double altitude, const double vDark, const int count)
+{
+    const double horizon = horizonElevation(planet, altitude), range = pi / 2 - horizon;
+    std::vector<double> nodes;
+    for (int k = 0; k < count; ++k) {
+        const double v = vDark + (1 - vDark) * k / std::max(1, count - 1);
+        nodes.push_back(std::clamp(horizon + range * std::sinh(sunTableScale * v) / std::sinh(sunTableScale), -pi / 2, pi / 2));
+    }
+    return nodes;
+}
+
+double sunElevationPosition(const Planet& planet, const double altitude, const double vDark, const int count,
+                            const double elevation)
+{
+    const double horizon = horizonElevation(planet, altitude), range = pi / 2 - horizon;
+    const double v = std::asinh((elevation - horizon) / range * std::sinh(sunTableScale)) / sunTableScale;
+    return (v - vDark) / (1 - vDark) * (count - 1);
+}
+
+double sunTableDarkEnd(const double depth)
+{
+    return std::asinh(-depth / (pi / 2) * std::sinh(sunTableScale)) / sunTableScale;
+}
+
 std::vector<double> azimuthNodes(const int count)
 {
     std::vector<double> nodes;

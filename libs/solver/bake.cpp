@@ -19,6 +19,14 @@ std::vector<std::array<double, 4>> luminanceOf(const physics::Medium& medium)
     return weights;
 }
 
+model::Axis sunAxis(const BakeJob& job, int count)
+{
+    model::Axis axis{"sunZenithAngle", "1", {}, {"sun-from-horizon", {{"scale", physics::sunTableScale}, {"vDark", job.vDark}}}};
+    for (int k = 0; k < count; ++k) // the share of the way from the dark to the zenith
+        axis.nodes.push_back(k);
+    return axis;
+}
+
 model::TableSpec scatteringSpec(const BakeJob& job, const std::string& name, bool luminance, const std::string& quantity)
 {
     const auto& size = job.description.scatteringSize;
@@ -30,7 +38,7 @@ model::TableSpec scatteringSpec(const BakeJob& job, const std::string& name, boo
     for (int k = 0; k < size.viewZenithAngle; ++k) // the share of the way from nadir to horizon, then from horizon to zenith
         view.nodes.push_back(k);
     spec.axes = {{"altitude", "m", job.altitudes(), {"horizon-distance", {}}},
-                 {"sunElevation", "rad", job.sunElevations(), {"sinh", {{"scale", physics::MomentGrid::sinhScale}}}},
+                 sunAxis(job, size.sunZenithAngle),
                  view,
                  {"relativeAzimuth", "rad", physics::azimuthNodes(size.dotViewSun), {"uniform", {}}}};
     spec.rowAxes = 2;
@@ -50,10 +58,11 @@ std::vector<RayStart> viewsFrom(const BakeJob& job, double altitude)
     return starts;
 }
 
-SunSamples samplesOf(const gl::Api& api, const BakeJob& job)
+SunSamples samplesOf(const gl::Api& api, const BakeJob& job, double altitude)
 {
     std::vector<float> suns, azimuths;
-    for (const double e : job.sunElevations())
+    for (const double e : physics::sunElevationNodes(job.scene.profile.planet(), altitude, job.vDark,
+                                                     job.description.scatteringSize.sunZenithAngle))
         suns.push_back(static_cast<float>(std::sin(e)));
     for (const double phi : physics::azimuthNodes(job.description.scatteringSize.dotViewSun))
         azimuths.push_back(static_cast<float>(std::cos(phi)));
@@ -91,16 +100,6 @@ std::vector<double> BakeJob::altitudes() const
     return all;
 }
 
-std::vector<double> BakeJob::sunElevations() const
-{
-    const physics::MomentGrid axis(scene.profile.planet(), {0, scene.profile.planet().topOfAtmosphere}, lowestSunElevation,
-                                   description.scatteringSize.sunZenithAngle);
-    std::vector<double> nodes;
-    for (int j = 0; j < axis.sunCount(); ++j)
-        nodes.push_back(axis.sunElevation(j));
-    return nodes;
-}
-
 void bakeSingleScattering(const gl::Api& api, const BakeJob& job, model::ModelWriter& writer,
                           const std::function<void(double)>& breath)
 {
@@ -129,15 +128,15 @@ void bakeSingleScattering(const gl::Api& api, const BakeJob& job, model::ModelWr
     if (anySpectral)
         asSpectra.emplace(api, job.scene, DirectGather::Purpose::table, std::vector<std::array<double, 4>>{});
 
-    const SunSamples samples = samplesOf(api, job);
     const auto altitudes = job.altitudes();
-    const int views = job.description.scatteringSize.viewZenithAngle;
-    const std::size_t texels = std::size_t(views) * samples.suns * samples.azimuths;
-    const Strides strides{samples.azimuths, views * samples.azimuths, 1};
+    const auto& size = job.description.scatteringSize;
+    const std::size_t texels = std::size_t(size.viewZenithAngle) * size.sunZenithAngle * size.dotViewSun;
+    const Strides strides{size.dotViewSun, size.viewZenithAngle * size.dotViewSun, 1};
     gl::Buffer results(api, "single scattering",
                        texels * scatterers * 4 * sizeof(float) * (anySpectral ? job.scene.sets() : 1));
     for (std::size_t layer = 0; layer < altitudes.size(); ++layer) {
         const auto fraction = [&] { breath(double(layer) / double(altitudes.size())); };
+        const SunSamples samples = samplesOf(api, job, altitudes[layer]);
         const DirectRays rays(api, job.scene, viewsFrom(job, altitudes[layer]), job.settings.directNodes, false);
         const auto gather = [&](DirectGather& with, bool asLuminanceToo) {
             with.gather(rays, samples, strides, withPhase, results, fraction);
@@ -145,7 +144,7 @@ void bakeSingleScattering(const gl::Api& api, const BakeJob& job, model::ModelWr
             const std::size_t texel = asLuminanceToo ? 4 : std::size_t(job.scene.sets()) * 4;
             for (int i = 0; i < scatterers; ++i)
                 if (luminance[i] == asLuminanceToo)
-                    writeLayer(job, tables[i], static_cast<int>(layer), asLuminanceToo, &values[i * texels * texel], samples.suns,
+                    writeLayer(job, tables[i], static_cast<int>(layer), asLuminanceToo, &values[i * texels * texel], size.sunZenithAngle,
                                texels);
         };
         if (asLuminance)
@@ -164,17 +163,17 @@ void bakeMultipleScattering(const gl::Api& api, const BakeJob& job, const physic
     ScatteredGather gather(api, job.scene, false,
                            luminance ? luminanceOf(job.scene.medium) : std::vector<std::array<double, 4>>{});
     const FineField fine(field, job.settings.refinement);
-    const SunSamples samples = samplesOf(api, job);
     const auto altitudes = job.altitudes();
-    const int views = job.description.scatteringSize.viewZenithAngle;
-    const std::size_t texels = std::size_t(views) * samples.suns * samples.azimuths;
-    const Strides strides{samples.azimuths, views * samples.azimuths, 1};
+    const auto& size = job.description.scatteringSize;
+    const std::size_t texels = std::size_t(size.viewZenithAngle) * size.sunZenithAngle * size.dotViewSun;
+    const Strides strides{size.dotViewSun, size.viewZenithAngle * size.dotViewSun, 1};
     gl::Buffer results(api, "multiple scattering", texels * 4 * sizeof(float) * (luminance ? 1 : job.scene.sets()));
     for (std::size_t layer = 0; layer < altitudes.size(); ++layer) {
+        const SunSamples samples = samplesOf(api, job, altitudes[layer]);
         const ScatteredRays rays(api, job.scene, field.grid, viewsFrom(job, altitudes[layer]), job.settings.nodes);
         gather.gather(rays, fine, samples, strides, results,
                       [&] { breath(double(layer) / double(altitudes.size())); });
-        writeLayer(job, table, static_cast<int>(layer), luminance, results.download().data(), samples.suns, texels);
+        writeLayer(job, table, static_cast<int>(layer), luminance, results.download().data(), size.sunZenithAngle, texels);
     }
     breath(1);
 }
@@ -221,20 +220,19 @@ void bakeIrradiance(const BakeJob& job, const RadiationField* field, bool perEve
     const auto& medium = job.scene.medium;
     const int wavelengths = medium.wavelengthCount();
     const auto altitudes = physics::altitudeNodes(planet, size.altitude);
-    const physics::MomentGrid axis(planet, {0, planet.topOfAtmosphere}, job.lowestSunElevation, size.zenithAngle);
     model::TableSpec spec;
     spec.unit = "W m^-2 nm^-1";
     spec.channels = model::Channels::SpectralDimensionless;
     spec.wavelengthsNm = medium.wavelengthsNm;
-    model::Axis sun{"sunElevation", "rad", {}, {"sinh", {{"scale", physics::MomentGrid::sinhScale}}}};
-    for (int j = 0; j < axis.sunCount(); ++j)
-        sun.nodes.push_back(axis.sunElevation(j));
-    spec.axes = {{"altitude", "m", altitudes, {"horizon-distance", {}}}, sun};
+    spec.axes = {{"altitude", "m", altitudes, {"horizon-distance", {}}}, sunAxis(job, size.zenithAngle)};
+    const auto suns = [&](double altitude) {
+        return physics::sunElevationNodes(planet, altitude, job.vDark, size.zenithAngle);
+    };
 
     std::vector<float> direct;
     std::vector<double> light(wavelengths);
     for (const double h : altitudes)
-        for (const double e : sun.nodes) {
+        for (const double e : suns(h)) {
             job.scene.sun.horizontalIrradiance(h, std::sin(e), light.data());
             for (int w = 0; w < wavelengths; ++w)
                 direct.push_back(static_cast<float>(light[w] * medium.solarIrradiance[w]));
@@ -250,7 +248,7 @@ void bakeIrradiance(const BakeJob& job, const RadiationField* field, bool perEve
         std::vector<float> values;
         for (const double h : altitudes) {
             const auto a = from.altitudeStencil(h);
-            for (const double e : sun.nodes) {
+            for (const double e : suns(h)) {
                 const auto b = from.sunStencil(from.sunPosition(e));
                 for (int w = 0; w < wavelengths; ++w) {
                     double logarithm = 0;

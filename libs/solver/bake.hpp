@@ -19,9 +19,8 @@ struct BakeJob {
     const Options& options;
     const Scene& scene;
     BakeSettings settings;
-    double lowestSunElevation; ///< rad
-    std::vector<double> altitudes() const;     ///< of the layers asked for
-    std::vector<double> sunElevations() const; ///< from the lowest to the zenith
+    double vDark; ///< dark end of the axis of the Sun: physics::sunElevationNodes
+    std::vector<double> altitudes() const; ///< of the layers asked for
 };
 
 /// Single scattering, a table per scatterer: "single-scattering/NAME".

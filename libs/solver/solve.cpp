@@ -9,6 +9,7 @@
 #include "solver/debug_tables.hpp"
 #include "solver/medium_tables.hpp"
 #include "solver/plan.hpp"
+#include "physics/table_axes.hpp"
 #include "solver/quality.hpp"
 #include <cmath>
 
@@ -99,7 +100,7 @@ void solve(const atmo::Description& description, const Options& options, gl::Hea
     const physics::SunTable sun(profile, optics, medium.sunAngularRadius);
     const Scene scene{medium, profile, optics, sun};
     const physics::MomentGrid grid(profile, largestExtinctions(optics), quality.moments.altitudes, quality.moments.suns);
-    const BakeJob job{description, options, scene, quality.bake, grid.lowestElevation()};
+    const BakeJob job{description, options, scene, quality.bake, physics::sunTableDarkEnd(grid.darkDepth())};
     model::describeOptics(manifest, optics, quality.moments.truncatePeaks);
 
     // 3. The radiation field: moments of every event, summed.
