@@ -230,3 +230,36 @@ TEST_CASE("ray weights: a field that changes linearly along the ray is seen wher
         }
     }
 }
+
+TEST_CASE("rays: planets from 100 km to 10 Gm, atmospheres from 1 m to 1000 km, optical depths from 0 to 1000")
+{
+    for (const double radius : {1e5, 6.4e6, 1e10})
+        for (const double top : {1., 1e3, 1e6})
+            for (const double depth : {0., 1e-3, 1000.}) {
+                Air air(withDensity(sky::test::layer(depth, 1, 0, sky::test::isotropicPhase, radius, top), {0, 0.5 * top, top}, {1, 0.1, 1e-3}));
+                const Planet& p = air.profile.planet();
+                for (const double h : {0., 1e-4 * top, 0.5 * top, std::nextafter(top, 0.), top}) {
+                    const double horizon = horizonMu(p, h);
+                    for (const double mu : {-1., horizon - 1e-9, std::nextafter(horizon, -2.), horizon, std::nextafter(horizon, 1.), -1e-12, 0., 1e-3, 1.}) {
+                        if (mu < -1)
+                            continue;
+                        const RayNodes ray = air.trace(h, mu, 12);
+                        INFO("R " << radius << " H " << top << " depth " << depth << " h " << h << " mu " << mu);
+                        bool sound = true;
+                        for (const auto& node : ray.nodes)
+                            sound = sound && node.altitude >= 0 && node.altitude <= top * (1 + 1e-9) && std::abs(node.mu) <= 1 &&
+                                    node.sunScale > 0 && node.nuScale >= 0;
+                        for (const double w : ray.weights)
+                            sound = sound && w >= 0 && w <= 1;
+                        CHECK(sound);
+                        // Where a conservative ray meets the ground, what is not seen is what comes through.
+                        if (ray.hitsGround)
+                            CHECK(sum(ray.weights) + ray.groundTransmittance[0] == Approx(1).epsilon(1e-9));
+                        else {
+                            const double tau = air.depthToSpace(h, mu);
+                            CHECK(sum(ray.weights) == Approx(-std::expm1(-tau)).epsilon(1e-9).margin(1e-300));
+                        }
+                    }
+                }
+            }
+}
