@@ -30,6 +30,7 @@ void RayTracer::walk(const double h, const double mu, const bool hitsGround)
     bounds_.assign(1, 0);
     altitudes_.assign(1, h);
     columns_.clear();
+    centres_.clear();
     if (!(length > 0))
         return;
 
@@ -79,8 +80,11 @@ void RayTracer::walk(const double h, const double mu, const bool hitsGround)
                 const double offset = 0.5 * (b - a) / std::sqrt(3.), middle = 0.5 * (a + b);
                 profile_.densities(k, altitudeAlong(p, h, mu, middle - offset), n.data());
                 profile_.densities(k, altitudeAlong(p, h, mu, middle + offset), m.data());
-                for (int s = 0; s < species; ++s)
-                    columns_.push_back(0.5 * (b - a) * (n[s] + m[s]));
+                for (int s = 0; s < species; ++s) {
+                    const double both = n[s] + m[s];
+                    columns_.push_back(0.5 * (b - a) * both);
+                    centres_.push_back(0.5 + (both > 0 ? 0.5 / std::sqrt(3.) * (m[s] - n[s]) / both : 0));
+                }
                 bounds_.push_back(b);
                 altitudes_.push_back(altitudeAlong(p, h, mu, b));
             }
@@ -117,6 +121,8 @@ RayNodes RayTracer::trace(const double altitude, const double mu, const int coun
     // What each cell contributes: sum over species of sigma_sca N T (1 - exp(-tau)) / tau, the exact mean over the cell.
     std::vector<double> depth(wavelengths, 0.), seen(cells * wavelengths), measure(cells + 1, 0.);
     std::vector<double> share(cells, 0.);
+    // A cell's light comes from its centre of density, shifted towards the viewer by attenuation (in lengths of the cell).
+    std::vector<double> shift(cells * wavelengths);
     double total = 0, turned = 0;
     std::vector<double> transmittance(wavelengths, 1.);
     for (int c = 0; c < cells; ++c) {
@@ -130,6 +136,7 @@ RayNodes RayTracer::trace(const double altitude, const double mu, const int coun
         double scattered = 0;
         for (int w = 0; w < wavelengths; ++w) {
             const double lost = -std::expm1(-tau[w]);
+            shift[size_t(c) * wavelengths + w] = tau[w] > 1e-3 ? 1 / tau[w] - (1 - lost) / lost - 0.5 : -tau[w] / 12;
             mean[w] = transmittance[w] * (tau[w] > 1e-9 ? lost / tau[w] : 1 - 0.5 * tau[w]);
             transmittance[w] *= 1 - lost;
         }
@@ -172,7 +179,6 @@ RayNodes RayTracer::trace(const double altitude, const double mu, const int coun
         while (k + 2 < count && position[k + 1] < middle)
             ++k;
         const double gap = position[k + 1] - position[k];
-        const double x = gap > 0 ? std::clamp((middle - position[k]) / gap, 0., 1.) : 0.;
         for (int i = 0; i < scatterers; ++i) {
             const int s = optics_.scatterers[i];
             const double column = columns_[c * species + s];
@@ -180,6 +186,9 @@ RayNodes RayTracer::trace(const double altitude, const double mu, const int coun
             double* far = &result.weights[((k + 1) * scatterers + i) * wavelengths];
             for (int w = 0; w < wavelengths; ++w) {
                 const double weight = column * optics_.scattering[s * wavelengths + w] * seen[c * wavelengths + w];
+                const double centre = centres_[c * species + s] + shift[size_t(c) * wavelengths + w];
+                const double at = bounds_[c] + std::clamp(centre, 0., 1.) * (bounds_[c + 1] - bounds_[c]);
+                const double x = gap > 0 ? std::clamp((at - position[k]) / gap, 0., 1.) : 0.;
                 near[w] += (1 - x) * weight;
                 far[w] += x * weight;
             }

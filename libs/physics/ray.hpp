@@ -49,6 +49,7 @@ private:
     double cellScale_;
     std::vector<double> bounds_;   // [cells + 1], distances
     std::vector<double> columns_;  // [cells][species]
+    std::vector<double> centres_;  // [cells][species], centre of mass along the cell, 0..1
     std::vector<double> altitudes_; // [cells + 1]
     std::vector<double> maxExtinction_; // [species]
     std::vector<double> meanScattering_;

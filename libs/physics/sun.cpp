@@ -90,6 +90,15 @@ SunTable::SunTable(const Profile& profile, const Optics& optics, const double su
         thread.join();
 }
 
+SunTable::Row SunTable::row(const double altitude) const
+{
+    const size_t k = std::clamp<size_t>(std::upper_bound(altitudes_.begin(), altitudes_.end(), altitude) - altitudes_.begin(), 1,
+                                        altitudes_.size() - 1) - 1;
+    const auto measure = [&](double h) { return std::sqrt(std::max(0., radiusExcessSquared(planet_, h))); };
+    const double from = measure(altitudes_[k]), to = measure(altitudes_[k + 1]);
+    return {static_cast<int>(k), std::clamp((measure(altitude) - from) / (to - from), 0., 1.)};
+}
+
 double SunTable::axis(const double elevation, const double horizon) const
 {
     const double range = pi / 2 - horizon + sunRadius_;
@@ -105,13 +114,11 @@ void SunTable::transmittance(const double altitude, const double muSun, double* 
         std::fill(result, result + wavelengths_, 0.);
         return;
     }
-    const size_t row = std::clamp<size_t>(std::upper_bound(altitudes_.begin(), altitudes_.end(), altitude) -
-                                              altitudes_.begin(), 1, altitudes_.size() - 1) - 1;
-    const double y = std::clamp((altitude - altitudes_[row]) / (altitudes_[row + 1] - altitudes_[row]), 0., 1.);
+    const auto [row, y] = this->row(altitude);
     const double u = axis(elevation, horizon) * (elevations_ - 1);
     const int k = std::min(static_cast<int>(u), elevations_ - 2);
     const double x = u - k;
-    const double* a = &depth_[(row * elevations_ + k) * wavelengths_];
+    const double* a = &depth_[(size_t(row) * elevations_ + k) * wavelengths_];
     const double* b = a + elevations_ * wavelengths_;
     for (int w = 0; w < wavelengths_; ++w) {
         const double tau = (1 - y) * ((1 - x) * a[w] + x * a[wavelengths_ + w]) + y * ((1 - x) * b[w] + x * b[wavelengths_ + w]);

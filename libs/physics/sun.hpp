@@ -30,6 +30,13 @@ public:
     /// Irradiance of a horizontal surface by the direct Sun per unit irradiance outside, [wavelength].
     void horizontalIrradiance(double altitude, double muSun, double* result) const;
 
+    /// Table row below an altitude, and the fraction of the way to the next: linear in sqrt(r^2 - R^2), with which the optical depth
+    /// towards a Sun at a given height above the horizon varies evenly even at the ground.
+    struct Row {
+        int index;
+        double fraction;
+    };
+    Row row(double altitude) const;
     /// Position on the elevation axis, 0..1, for a Sun at `elevation` over a horizon at `horizon` (rad).
     double axis(double elevation, double horizon) const;
 

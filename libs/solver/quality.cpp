@@ -37,13 +37,13 @@ Quality qualityFor(const std::string& name, const physics::Medium& medium)
     Quality q;
     auto& m = q.moments;
     if (name == "draft") {
-        m = {12, 24, 2, 4, 3, 6, 4, 24, 8, true};
-        q.bake = {24, 8, 3};
+        m = {12, 24, 3, 4, 3, 6, 4, 48, 8, true};
+        q.bake = {20, 8, 2};
     } else if (name == "normal") {
-        m = {16, 32, 4, 5, 4, 8, 6, 48, 12, true};
-        q.bake = {40, 14, 4};
+        m = {14, 28, 5, 7, 4, 8, 6, 64, 10, true};
+        q.bake = {32, 10, 3};
     } else if (name == "fine") {
-        m = {24, 48, 8, 8, 6, 12, 10, 96, 20, true};
+        m = {24, 48, 8, 8, 6, 12, 10, 160, 20, true};
         q.bake = {80, 24, 4};
     } else if (name == "reference") {
         m = {40, 80, 12, 12, 10, 20, 16, 192, 40, true};

@@ -68,7 +68,6 @@ DirectRays::Data::Data(const Scene& scene, const std::vector<RayStart>& starts, 
 {
     const auto rays = traceRays(scene, starts, nodeCount);
     const int sets = scene.sets(), scatterers = scene.scatterers(), wavelengths = scene.optics.wavelengths;
-    const auto& altitudes = scene.sun.altitudes();
     nodes.resize(rays.size() * (nodeCount + 1) * 8);
     weights.resize(rays.size() * nodeCount * scatterers * sets * 4);
     for (std::size_t r = 0; r < rays.size(); ++r) {
@@ -79,13 +78,12 @@ DirectRays::Data::Data(const Scene& scene, const std::vector<RayStart>& starts, 
             float* to = &nodes[(r * (nodeCount + 1) + k) * 8];
             putNode(to, node, ray.hitsGround ? 1 : 0);
             const double horizon = physics::horizonElevation(scene.profile.planet(), h);
-            const std::size_t row = std::clamp<std::size_t>(
-                std::upper_bound(altitudes.begin(), altitudes.end(), h) - altitudes.begin(), 1, altitudes.size() - 1) - 1;
+            const auto [row, fraction] = scene.sun.row(h);
             to[4] = static_cast<float>(horizon);
             to[5] = static_cast<float>(1 / std::asinh((pi / 2 - horizon + scene.medium.sunAngularRadius) /
                                                       physics::SunTable::elevationScale));
             to[6] = static_cast<float>(row);
-            to[7] = static_cast<float>(std::clamp((h - altitudes[row]) / (altitudes[row + 1] - altitudes[row]), 0., 1.));
+            to[7] = static_cast<float>(fraction);
         }
         for (int k = 0; k < nodeCount; ++k)
             for (int i = 0; i < scatterers; ++i)
