@@ -1,0 +1,189 @@
+#include "painter.hpp"
+
+#include "gl/pixel_store.hpp"
+#include "physics/table_axes.hpp"
+#include "sky_shaders.hpp"
+#include "view_direction.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace showmysky {
+
+namespace gl = sky::gl;
+
+namespace {
+
+constexpr GLuint tablesUnit = 0, phasesUnit = 1, directionsUnit = 2;
+constexpr double pi = 3.14159265358979323846;
+
+gl::Program buildProgram(const gl::Api& api, int scatterers, const Options& options)
+{
+    std::vector<gl::Define> defines{{"SCATTERERS", std::to_string(scatterers)},
+                                    {"PHASE_ROWS", std::to_string(std::max(1, (scatterers + 3) / 4))},
+                                    {"SUN_COLOURS", std::to_string(sunColourCount)}};
+    const bool host = !options.viewDirectionFunction.empty();
+    const std::string builtIn = "render/projections.glsl";
+    const gl::Snippet projection{"viewDirection", host ? options.viewDirectionFunction : std::string(sky::shaders::source(builtIn)),
+                                 host ? "viewDirectionFunction" : builtIn, 1, false};
+    return gl::ProgramBuilder(api, sky::shaders::source)
+        .graphics("sky", "render/triangle.vert", "render/sky.frag", defines, {projection});
+}
+
+gl::TextureFormat formatOf(bool half) { return half ? gl::TextureFormat::rgba16f : gl::TextureFormat::rgba32f; }
+
+std::vector<float> flat(const std::vector<Texel>& texels)
+{
+    std::vector<float> result;
+    result.reserve(texels.size() * 4);
+    for (const Texel& texel : texels)
+        result.insert(result.end(), texel.begin(), texel.end());
+    return result;
+}
+
+std::array<float, 3> asFloats(const std::array<double, 3>& v)
+{
+    return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
+}
+
+std::size_t bytesOf(const gl::Texture& texture)
+{
+    const bool half = texture.format() == gl::TextureFormat::rgba16f;
+    return texture.size().texels() * (half ? 8 : 16);
+}
+
+} // namespace
+
+Painter::Painter(const gl::Api& api, int scatterers, const std::vector<Texel>& phases, const Options& options)
+    : api_(api), half_(options.halfFloats || api.isEs()), hostProjection_(!options.viewDirectionFunction.empty()),
+      scatterers_(scatterers), program_(buildProgram(api, scatterers, options)), triangle_(api, "sky triangle"),
+      phases_(api, "phase functions", formatOf(half_), phaseWidth, static_cast<int>(phases.size()) / phaseWidth),
+      tables_(api, "sky tables", formatOf(half_), drawnAzimuths, 2 * drawnHalfViews * (scatterers + 1)),
+      direction_(api, "direction of a pixel", formatOf(half_), 1, 1), target_(api, "luminance"),
+      directionTarget_(api, "direction of a pixel")
+{
+    phases_.upload(flat(phases));
+    directionTarget_.attach(0, direction_);
+    program_.set("phaseWidth", static_cast<float>(phaseWidth));
+    program_.set("tableSize", std::array<float, 2>{drawnAzimuths, drawnHalfViews});
+    program_.set("largest", half_ ? 65504.f : 3e38f);
+    gl::checkErrors(api_, "preparing to draw the sky");
+}
+
+void Painter::setSky(const SkyView& view, const SceneGeometry& geometry)
+{
+    // Each table is stored over its largest value: half floats then serve noon and night alike.
+    std::vector<float> texels;
+    std::vector<std::array<float, 4>> scales;
+    constexpr std::size_t texelsOfTable = std::size_t(2) * drawnHalfViews * drawnAzimuths;
+    for (int i = -1; i < scatterers_; ++i) {
+        const ViewTable table =
+            resampled(i < 0 ? view.whole : view.scattered[static_cast<std::size_t>(i)], drawnHalfViews, drawnAzimuths);
+        float largest = 0;
+        for (const Texel& texel : table.texels)
+            largest = std::max({largest, texel[0], texel[1], texel[2], texel[3]});
+        scales.push_back({largest, largest, largest, largest});
+        if (largest > 0)
+            for (const Texel& texel : table.texels)
+                for (const float value : texel)
+                    texels.push_back(std::max(0.f, value / largest));
+        texels.resize(static_cast<std::size_t>(i + 2) * texelsOfTable * 4, 0.f);
+    }
+    tables_.upload(texels);
+    tables_.setFilter(geometry.filter ? gl::Filter::linear : gl::Filter::nearest);
+    program_.setVec4s("tableScales", scales);
+    program_.set("sunDirection", asFloats(geometry.sunDirection));
+    program_.set("horizon", static_cast<float>(geometry.horizon));
+    const auto inverseRange = [](double range) {
+        return static_cast<float>(1 / std::asinh(range / sky::physics::horizonAngleScale));
+    };
+    program_.set("inverseRanges",
+                 std::array<float, 2>{inverseRange(pi / 2 - geometry.horizon), inverseRange(pi / 2 + geometry.horizon)});
+    program_.setVec4s("sunColours", geometry.sunColours);
+    program_.set("sunRadius", static_cast<float>(geometry.sunRadius));
+    program_.set("mirror", geometry.mirror ? 1 : 0);
+}
+
+void Painter::setCamera(const Camera& camera, int width, int height)
+{
+    program_.setTexture("skyTables", tablesUnit, tables_);
+    program_.setTexture("phases", phasesUnit, phases_);
+    if (hostProjection_)
+        return;
+    program_.set("pictureSize", std::array<float, 2>{static_cast<float>(width), static_cast<float>(height)});
+    program_.set("directions", static_cast<int>(directionsUnit));
+    if (camera.directionTexture != 0) {
+        api_->ActiveTexture(GL_TEXTURE0 + directionsUnit);
+        api_->BindTexture(GL_TEXTURE_2D, camera.directionTexture);
+        program_.set("projection", 3);
+        return;
+    }
+    const auto scale = projectionScale(camera, width, height);
+    const auto axes = cameraAxes(camera);
+    std::array<float, 9> columns{};
+    for (std::size_t i = 0; i < 9; ++i)
+        columns[i] = static_cast<float>(axes[i / 3][i % 3]);
+    program_.set("projection", static_cast<int>(camera.projection));
+    program_.set("projectionScale", std::array<float, 2>{static_cast<float>(scale[0]), static_cast<float>(scale[1])});
+    program_.setMat3("cameraAxes", columns);
+}
+
+void Painter::draw(const Camera& camera, int width, int height, int reduction)
+{
+    const int w = std::max(1, width / reduction), h = std::max(1, height / reduction);
+    if (!luminance_ || luminance_->size().width != w || luminance_->size().height != h) {
+        luminance_.emplace(api_, "luminance", formatOf(half_), w, h);
+        target_.attach(0, *luminance_);
+    }
+    pictureWidth_ = width;
+    pictureHeight_ = height;
+    reduction_ = reduction;
+    const gl::Bound target(target_);
+    const gl::Bound pass(program_);
+    setCamera(camera, width, height);
+    program_.set("showDirection", 0);
+    program_.set("pixelScale", static_cast<float>(width) / static_cast<float>(w));
+    program_.set("pixelOffset", std::array<float, 2>{0, 0});
+    triangle_.drawFullScreenTriangle();
+    gl::checkErrors(api_, "drawing the sky");
+}
+
+std::array<double, 3> Painter::drawDirection(const Camera& camera, int x, int y)
+{
+    const gl::Bound target(directionTarget_);
+    const gl::Bound pass(program_);
+    setCamera(camera, pictureWidth_, pictureHeight_);
+    program_.set("showDirection", 1);
+    const float scale = static_cast<float>(pictureWidth_) / static_cast<float>(luminance_->size().width);
+    program_.set("pixelScale", scale);
+    program_.set("pixelOffset", std::array<float, 2>{static_cast<float>(x) * scale, static_cast<float>(y) * scale});
+    triangle_.drawFullScreenTriangle();
+    const auto values = directionTarget_.readPixels(0);
+    gl::checkErrors(api_, "asking for the direction of a pixel");
+    const double size = std::hypot(static_cast<double>(values[0]), static_cast<double>(values[1]), static_cast<double>(values[2]));
+    if (!(size > 0))
+        return {};
+    return {static_cast<double>(values[0]) / size, static_cast<double>(values[1]) / size, static_cast<double>(values[2]) / size};
+}
+
+Texel Painter::readPixel(int x, int y) const
+{
+    GLint before = 0;
+    api_->GetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &before);
+    const gl::PixelStoreScope pixelStore(api_, gl::PixelTransfer::pack);
+    api_->BindFramebuffer(GL_READ_FRAMEBUFFER, target_.name());
+    api_->ReadBuffer(GL_COLOR_ATTACHMENT0);
+    Texel texel{};
+    api_->ReadPixels(x, y, 1, 1, GL_RGBA, GL_FLOAT, texel.data());
+    api_->BindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(before));
+    gl::checkErrors(api_, "reading a pixel of the sky");
+    return texel;
+}
+
+std::size_t Painter::textureBytes() const
+{
+    return bytesOf(phases_) + bytesOf(tables_) + bytesOf(direction_) + (luminance_ ? bytesOf(*luminance_) : 0);
+}
+
+int Painter::fetchesPerPixel() const { return 1 + scatterers_ + (scatterers_ + 3) / 4; }
+
+} // namespace showmysky

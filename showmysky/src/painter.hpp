@@ -1,0 +1,64 @@
+#pragma once
+// The full-resolution pass: what OpenGL holds and does.
+
+#include "gl/framebuffer.hpp"
+#include "gl/program.hpp"
+#include "gl/texture.hpp"
+#include "showmysky/sky.hpp"
+#include "sky_view.hpp"
+#include <optional>
+
+namespace showmysky {
+
+constexpr int sunColourCount = 8; ///< samples of the disc's luminance from its lower to its upper edge
+
+/// What the picture depends on beside the tables.
+struct SceneGeometry {
+    std::array<double, 3> sunDirection{};
+    double horizon = 0;   ///< elevation, rad
+    double sunRadius = 0; ///< rad; 0 where the disc isn't shown
+    std::array<Texel, sunColourCount> sunColours{};
+    bool mirror = false;
+    bool filter = true;
+};
+
+class Painter
+{
+public:
+    /// Must be made, used and destroyed with the context current; does not guard the host's state, the caller does.
+    ///   phases   Phases::texels(phaseWidth)
+    Painter(const sky::gl::Api& api, int scatterers, const std::vector<Texel>& phases, const Options& options);
+    static constexpr int phaseWidth = 2048;
+
+    void setSky(const SkyView& view, const SceneGeometry& geometry);
+    void draw(const Camera& camera, int width, int height, int reduction);
+    /// Direction of the middle of a drawn pixel, drawn by the shader itself: for directions that only the host knows.
+    std::array<double, 3> drawDirection(const Camera& camera, int x, int y);
+
+    const sky::gl::Texture2D& luminance() const { return *luminance_; }
+    bool hasPicture() const { return luminance_.has_value(); }
+    std::vector<float> read() const { return target_.readPixels(0); }
+    Texel readPixel(int x, int y) const;
+    int pictureWidth() const { return pictureWidth_; } ///< as asked for, before the reduction
+    int pictureHeight() const { return pictureHeight_; }
+    int reduction() const { return reduction_; }
+    unsigned program() const { return program_.name(); }
+    std::size_t textureBytes() const;
+    int fetchesPerPixel() const;
+
+private:
+    void setCamera(const Camera& camera, int width, int height);
+
+    sky::gl::Api api_;
+    bool half_, hostProjection_;
+    int scatterers_;
+    sky::gl::Program program_;
+    sky::gl::VertexArray triangle_;
+    sky::gl::Texture2D phases_, tables_;
+    sky::gl::Texture2D direction_;
+    std::optional<sky::gl::Texture2D> luminance_;
+    sky::gl::Framebuffer target_, directionTarget_;
+    int pictureWidth_ = 0, pictureHeight_ = 0, reduction_ = 1;
+};
+
+} // namespace showmysky

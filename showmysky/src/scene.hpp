@@ -1,0 +1,63 @@
+#pragma once
+// All that is computed without OpenGL: a model, settings, and the sky tables and spectra that follow from both.
+
+#include "moment_gather.hpp"
+#include "showmysky/sky.hpp"
+#include "texture_lookup.hpp"
+#include "painter.hpp"
+#include <optional>
+
+namespace showmysky {
+
+class Scene
+{
+public:
+    explicit Scene(std::string directory) : directory_(std::move(directory)) {}
+
+    // Loading, in this order.
+    static constexpr int loadSteps = 4;
+    static const char* loadActivity(int step);
+    void load(int step);
+
+    const Atmosphere& atmosphere() const { return *atmosphere_; }
+    const Phases& phases() const { return *phases_; }
+    bool hasSource(Source source) const;
+    std::string whyUnsupported(const SceneSettings& settings) const;
+
+    /// Checks and keeps the settings.   throws Error
+    void setSettings(const SceneSettings& settings);
+    const SceneSettings& settings() const { return settings_; }
+
+    /// True if the tables of the present settings are there.
+    bool ready() const { return ready_; }
+    /// Does a part of the work towards them.
+    Progress step();
+    const SkyView& view() const { return view_; }
+    SceneGeometry geometry() const;
+    /// Counts changes of what the picture depends on.
+    int version() const { return version_; }
+
+    /// Spectral radiance in a direction, W m^-2 sr^-1 nm^-1, in double precision; without the solar disc.
+    std::vector<double> spectralRadiance(const std::array<double, 3>& direction) const;
+
+private:
+    LayersUsed layersUsed() const;
+    double sunRadius() const;
+    void followSunlight();
+    std::array<Texel, sunColourCount> sunColours() const;
+
+    std::string directory_;
+    std::unique_ptr<Atmosphere> atmosphere_;
+    std::unique_ptr<Phases> phases_;
+    std::optional<sky::physics::Moments> moments_;
+    std::unique_ptr<sky::physics::SunTable> sun_;
+    double tabulatedSunRadius_ = -1;
+    std::unique_ptr<MomentGather> gather_;
+    std::unique_ptr<TextureLookup> lookup_;
+    SceneSettings settings_;
+    SkyView view_;
+    bool ready_ = false;
+    int version_ = 0;
+};
+
+} // namespace showmysky

@@ -1,0 +1,14 @@
+#pragma once
+// Layers with names resolved: what the gathers obey.
+
+#include <vector>
+
+namespace showmysky {
+
+struct LayersUsed {
+    bool ground = true;
+    bool multiple = true;
+    std::vector<bool> single; ///< [scatterer]
+};
+
+} // namespace showmysky
