@@ -1,0 +1,70 @@
+#pragma once
+// Light gathered along a ray in single precision: the fast twin of physics::SkyEvaluator.
+
+#include "photometry_ray.hpp"
+#include "physics/moments.hpp"
+#include "physics/sun.hpp"
+
+namespace showmysky {
+
+/// Memory of one question at a time.
+struct FastScratch {
+    /// What a node needs that depends on its altitude alone.
+    struct SunRow {
+        int row;                    ///< of the table of sunlight
+        float share;                ///< of the row above
+        double horizon, scale;      ///< rad; 1 / asinh(range / elevationScale)
+    };
+    FastRay ray;
+    unsigned prepared = 0; ///< version of the ray that these belong to
+    std::vector<SunRow> sunRows;
+    std::vector<sky::physics::Stencil> fieldRows;
+    std::vector<double> factors;   ///< [node][lm]
+    std::vector<float> harmonics;  ///< [lm]
+    lanes::Blocks lit;             ///< [scatterer][block]
+    lanes::Blocks phase, byDegree; ///< [scatterer][block], [l][block]
+    lanes::Blocks sum;             ///< [block]
+};
+
+/// Radiance per unit solar irradiance, sr^-1. Const functions are thread-safe, each with a scratch of its own.
+class FastGather
+{
+public:
+    struct Parts {
+        bool single, multiple;
+        bool exactPhase; ///< of single scattering; false: cut at the degree, which is smooth enough for hemispheres
+    };
+    /// \param moments  may be null: single scattering alone
+    FastGather(const sky::physics::Medium& medium, const sky::physics::Optics& optics, const sky::physics::SunTable& sun,
+               const sky::physics::Moments* moments, const Effort& effort = {});
+
+    /// Leaves the traced ray in the scratch.
+    ///   altitude  0..top       nu  cosine of the angle between view and Sun
+    ///   result    [wavelength]
+    void radiance(FastScratch& scratch, double altitude, double mu, double muSun, double nu, const Parts& parts, double* result) const;
+
+    void trace(FastScratch& scratch, double altitude, double mu) const { folder_.trace(altitude, mu, scratch.ray); }
+
+private:
+    void prepare(FastScratch& scratch) const;
+    void gatherSingle(FastScratch& scratch, double muSun, double nu, bool exactPhase) const;
+    void gatherMultiple(FastScratch& scratch, double muSun, double nu) const;
+    void exactPhase(double nu, FastScratch& scratch) const;
+    void truncatedPhase(double nu, FastScratch& scratch) const;
+
+    const sky::physics::SunTable& sun_;
+    const sky::physics::Moments* moments_;
+    sky::physics::Planet planet_;
+    sky::physics::Profile profile_;
+    RayFolder folder_;
+    int wavelengths_, blocks_, scatterers_, degree_;
+    double sunRadius_;
+    lanes::Blocks depth_;            ///< [altitude][elevation][block], optical depth towards the Sun
+    lanes::Blocks field_;            ///< [altitude][sun][lm][block], as physics::Moments::values
+    lanes::Blocks lambda_;           ///< [scatterer][l][block]
+    std::vector<double> angles_;     ///< rad
+    lanes::Blocks phase_;            ///< [angle][scatterer][block]: ln p, or p itself where that is not finite somewhere
+    std::vector<bool> logarithmic_;  ///< [scatterer]
+};
+
+} // namespace showmysky

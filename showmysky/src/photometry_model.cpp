@@ -1,0 +1,35 @@
+#include "photometry_model.hpp"
+#include "base/error.hpp"
+#include "model/medium_tables.hpp"
+#include "model/moment_tables.hpp"
+#include "physics/colour.hpp"
+#include <algorithm>
+#include <thread>
+
+namespace showmysky {
+
+namespace {
+
+int threads() { return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 8); }
+
+} // namespace
+
+PhotometryModel::PhotometryModel(const std::string& directory)
+    : model(sky::model::Model::open(directory)), medium(sky::model::readMedium(model)), profile(medium),
+      optics(sky::model::readOptics(model, medium)),
+      sun(profile, optics, medium.sunAngularRadius, 96, 128, threads()), evaluator(medium, profile, optics, sun),
+      luminanceWeights(sky::physics::luminanceWeights(medium.wavelengthsNm))
+{
+    if (model.hasTable("moments")) {
+        moments = sky::model::readMoments(model);
+        if (moments->degree != optics.degree)
+            throw sky::ModelError(directory + ": the moments are of degree " + std::to_string(moments->degree) +
+                                  ", the setting \"moments.degree\" says " + std::to_string(optics.degree) + ".");
+    }
+    if (std::any_of(optics.truncation.begin(), optics.truncation.end(), [](double f) { return f > 0; })) {
+        trueOptics = sky::physics::makeOptics(medium, optics.degree, false);
+        trueSun.emplace(profile, *trueOptics, medium.sunAngularRadius, 96, 128, threads());
+    }
+}
+
+} // namespace showmysky

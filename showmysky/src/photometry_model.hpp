@@ -1,0 +1,34 @@
+#pragma once
+// A model as photometry needs it: medium, optics, sunlight and moments, in double precision.
+
+#include "model/model.hpp"
+#include "physics/sky.hpp"
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace showmysky {
+
+struct PhotometryModel {
+    /// throws sky::ModelError
+    explicit PhotometryModel(const std::string& directory);
+    PhotometryModel(const PhotometryModel&) = delete;
+    PhotometryModel& operator=(const PhotometryModel&) = delete;
+
+    sky::model::Model model;
+    sky::physics::Medium medium;
+    sky::physics::Profile profile;
+    sky::physics::Optics optics;                   ///< peaks truncated, as the moments were computed
+    sky::physics::SunTable sun;                    ///< through these optics
+    std::optional<sky::physics::Moments> moments;  ///< empty if the model has none
+    std::optional<sky::physics::Optics> trueOptics; ///< only where they differ: nothing truncated
+    std::optional<sky::physics::SunTable> trueSun;
+    sky::physics::SkyEvaluator evaluator;
+    std::vector<std::array<double, 4>> luminanceWeights; ///< [wavelength]{X, Y, Z, scotopic}
+
+    /// Direct sunlight as it is, without what truncated peaks count as unscattered.
+    const sky::physics::SunTable& directSun() const { return trueSun ? *trueSun : sun; }
+};
+
+} // namespace showmysky

@@ -1,0 +1,286 @@
+#include "photometry_ray.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace showmysky {
+
+using namespace lanes;
+namespace physics = sky::physics;
+
+namespace {
+
+/// What the wavelength loop over the cells of a ray reads and writes.
+struct CellLoop {
+    int cells, species, scatterers, blocks;
+    const float* columns;
+    const int* scatterer; ///< indices of species
+    const Block *extinction, *scattering;
+    Block *seen, *transmittance;
+    float* share;
+};
+
+/// Attenuation cell by cell: the mean transmittance over each is T (1 - e^-tau) / tau.
+SKY_WIDEST_VECTORS
+void foldCells(const CellLoop& loop)
+{
+    for (int c = 0; c < loop.cells; ++c)
+        loop.share[c] = 0;
+    for (int b = 0; b < loop.blocks; ++b) {
+        Lanes transmittance = all(1);
+        for (int c = 0; c < loop.cells; ++c) {
+            const float* column = loop.columns + c * loop.species;
+            Lanes tau = all(0);
+            for (int s = 0; s < loop.species; ++s)
+                tau += column[s] * loop.extinction[s * loop.blocks + b].v;
+            // (1 - e^-tau) / tau; for small tau by its series, whose next term, tau^6 / 5040, is below 5e-8.
+            const Lanes thin =
+                1 - tau * (0.5f - tau * (1.f / 6 - tau * (1.f / 24 - tau * (1.f / 120 - tau * (1.f / 720)))));
+            const Lanes thick = (1 - exponential(-tau)) / (tau < 0.25f ? all(1) : tau);
+            const Lanes mean = tau < 0.25f ? thin : thick;
+            const Lanes seen = transmittance * mean;
+            transmittance -= transmittance * (tau * mean);
+            loop.seen[c * loop.blocks + b].v = seen;
+            Lanes scattered = all(0);
+            for (int i = 0; i < loop.scatterers; ++i)
+                scattered += column[loop.scatterer[i]] * loop.scattering[i * loop.blocks + b].v;
+            scattered *= seen;
+            loop.share[c] += (scattered[0] + scattered[1]) + (scattered[2] + scattered[3]) +
+                             ((scattered[4] + scattered[5]) + (scattered[6] + scattered[7]));
+        }
+        loop.transmittance[b].v = transmittance;
+    }
+}
+
+/// Where the cells stand between the nodes.
+struct Places {
+    const int* node;    ///< [cells], never decreasing
+    const float* share; ///< [cells], 0..1, of the next node
+};
+
+/// Shares out the cells among the nodes: hat functions between neighbours, as physics::RayTracer::trace.
+SKY_WIDEST_VECTORS
+void foldWeights(const CellLoop& loop, const Places& places, int nodes, Block* weights)
+{
+    const int stride = loop.scatterers * loop.blocks;
+    std::fill(weights, weights + nodes * stride, Block{all(0)});
+    for (int i = 0; i < loop.scatterers; ++i)
+        for (int b = 0; b < loop.blocks; ++b) {
+            const Lanes sigma = loop.scattering[i * loop.blocks + b].v;
+            const float* column = loop.columns + loop.scatterer[i];
+            for (int c = 0; c < loop.cells;) {
+                const int node = places.node[c];
+                Lanes whole = all(0), far = all(0);
+                for (; c < loop.cells && places.node[c] == node; ++c) {
+                    const Lanes light = column[c * loop.species] * loop.seen[c * loop.blocks + b].v;
+                    whole += light;
+                    far += places.share[c] * light;
+                }
+                Block* near = weights + node * stride + i * loop.blocks + b;
+                near->v += (whole - far) * sigma;
+                near[stride].v += far * sigma;
+            }
+        }
+}
+
+/// Densities from their arguments: the exponential where it is the logarithm that is linear.
+SKY_WIDEST_VECTORS
+void foldDensities(int steps, const Block* argument, const Block* logarithmic, Block* density)
+{
+    for (int i = 0; i < steps; ++i) {
+        const Lanes x = argument[i].v, linear = x > 0.f ? x : all(0);
+        density[i].v = logarithmic[i].v > 0.5f ? exponential(x) : linear;
+    }
+}
+
+/// Distance to the horizon of an altitude: the measure in which gentle profiles and limb geometry are spread evenly.
+double spread(const physics::Planet& p, double h) { return std::sqrt(std::max(0., physics::radiusExcessSquared(p, h))); }
+
+} // namespace
+
+RayFolder::RayFolder(const physics::Profile& profile, const physics::Optics& optics, const Effort& effort)
+    : profile_(profile), effort_(effort), species_(optics.species), blocks_(blocksFor(optics.wavelengths)),
+      scatterers_(optics.scatterers)
+{
+    const auto& shells = profile.shells();
+    const std::size_t intervals = shells.size() - 1;
+    std::vector<double> low(species_), high(species_), largest(species_, 0.), ends;
+    for (std::size_t k = 0; k < intervals; ++k) {
+        profile.densities(static_cast<int>(k), shells[k], low.data());
+        profile.densities(static_cast<int>(k), shells[k + 1], high.data());
+        ends.insert(ends.end(), low.begin(), low.end());
+        ends.insert(ends.end(), high.begin(), high.end());
+        for (int s = 0; s < species_; ++s)
+            largest[s] = std::max({largest[s], low[s], high[s]});
+    }
+    for (double& density : largest)
+        density = density > 0 ? density : 1;
+    for (int s = 0; s < species_; ++s) {
+        const auto row = toBlocks(&optics.extinction[s * optics.wavelengths], 1, optics.wavelengths, largest[s]);
+        extinctions_.insert(extinctions_.end(), row.begin(), row.end());
+    }
+    for (const int s : scatterers_) {
+        const auto row = toBlocks(&optics.scattering[s * optics.wavelengths], 1, optics.wavelengths, largest[s]);
+        scatterings_.insert(scatterings_.end(), row.begin(), row.end());
+    }
+    for (std::size_t k = 0; k < intervals; ++k) {
+        double extinction = 0;
+        for (int s = 0; s < species_; ++s) {
+            const double a = ends[2 * k * species_ + s] / largest[s], b = ends[(2 * k + 1) * species_ + s] / largest[s];
+            const bool logarithmic = a > 0 && b > 0;
+            const double start = logarithmic ? std::log(a) : a, end = logarithmic ? std::log(b) : b;
+            segments_.push_back({start, (end - start) / (shells[k + 1] - shells[k]), logarithmic ? 1.f : 0.f});
+            const auto sigma = optics.extinction.begin() + s * optics.wavelengths;
+            extinction += std::max(a, b) * largest[s] * *std::max_element(sigma, sigma + optics.wavelengths);
+        }
+        extinction_.push_back(extinction);
+    }
+}
+
+/// Cuts the ray at the shells of the profile, and between them into cells.
+void RayFolder::walk(FastRay& ray) const
+{
+    const auto& p = profile_.planet();
+    const auto& shells = profile_.shells();
+    const double h = ray.altitude, mu = ray.mu;
+    const double length = ray.hitsGround ? physics::distanceToGround(p, h, mu) : physics::distanceToTop(p, h, mu);
+    ray.bounds.assign(1, 0);
+    ray.heights.assign(1, h);
+    ray.intervals.clear();
+    const auto add = [&](int interval, double to, double height) {
+        const double from = ray.bounds.back();
+        to = std::min(to, length);
+        if (!(to > from))
+            return;
+        const double bySteepness = profile_.steepness(interval) * std::abs(height - ray.heights.back()) / effort_.cellSteepness;
+        const double byLength = (to - from) / (length * effort_.cellLength);
+        const double byDepth = std::min((to - from) * extinction_[interval] / effort_.cellDepth, 64.);
+        const int cells = std::clamp(static_cast<int>(std::ceil(std::max({bySteepness, byLength, byDepth}))), 1, 256);
+        for (int c = 1; c <= cells; ++c) {
+            const double s = c == cells ? to : from + (to - from) * c / cells;
+            ray.bounds.push_back(s);
+            ray.heights.push_back(c == cells ? height : physics::altitudeAlong(p, h, mu, s));
+            ray.intervals.push_back(interval);
+        }
+    };
+    int k = profile_.intervalAt(h);
+    if (mu < 0) {
+        const double perigee = -(p.radius + h) * mu, lowest = physics::altitudeAlong(p, h, mu, perigee);
+        for (; k > 0 && (ray.hitsGround || shells[k] > lowest); --k)
+            add(k, physics::distanceToShell(p, h, mu, shells[k], true), shells[k]);
+        add(k, ray.hitsGround ? length : perigee, ray.hitsGround ? 0 : lowest);
+    }
+    if (!ray.hitsGround)
+        for (; k + 1 < static_cast<int>(shells.size()); ++k)
+            add(k, physics::distanceToShell(p, h, mu, shells[k + 1], false), shells[k + 1]);
+    ray.cells = static_cast<int>(ray.intervals.size());
+}
+
+/// Columns of each species in each cell, from the densities at two points of Gauss.
+void RayFolder::findColumns(FastRay& ray) const
+{
+    const auto& p = profile_.planet();
+    const auto& shells = profile_.shells();
+    const std::size_t steps = static_cast<std::size_t>(ray.cells * 2 * species_ + count - 1) / count;
+    for (auto* blocks : {&ray.arguments, &ray.logarithmic, &ray.densities})
+        blocks->resize(steps, Block{all(0)});
+    // Within a cell altitude is a parabola: h'' = (r sin)^2 / r'^3, whose numerator all points of the ray share.
+    const double r = p.radius + ray.altitude, sine = r * r * (1 - ray.mu * ray.mu);
+    constexpr double gauss = 0.21132486540518712;
+    float *argument = floats(ray.arguments), *logarithmic = floats(ray.logarithmic);
+    for (int c = 0; c < ray.cells; ++c) {
+        const double ds = ray.bounds[c + 1] - ray.bounds[c], h0 = ray.heights[c], h1 = ray.heights[c + 1];
+        const double rCell = p.radius + 0.5 * (h0 + h1), sag = 0.5 * gauss * (1 - gauss) * ds * ds * sine / (rCell * rCell * rCell);
+        const double first = h0 + gauss * (h1 - h0) - sag, second = h1 - gauss * (h1 - h0) - sag;
+        const int interval = ray.intervals[c];
+        for (const double height : {first, second})
+            for (int s = 0; s < species_; ++s) {
+                const Segment& segment = segments_[interval * species_ + s];
+                *argument++ = static_cast<float>(segment.start + segment.slope * (height - shells[interval]));
+                *logarithmic++ = segment.logarithmic;
+            }
+    }
+    foldDensities(static_cast<int>(steps), ray.arguments.data(), ray.logarithmic.data(), ray.densities.data());
+    ray.columns.resize(ray.cells * species_);
+    const float* density = floats(ray.densities);
+    for (int c = 0; c < ray.cells; ++c, density += 2 * species_) {
+        const float half = static_cast<float>(0.5 * (ray.bounds[c + 1] - ray.bounds[c]));
+        for (int s = 0; s < species_; ++s)
+            ray.columns[c * species_ + s] = half * (density[s] + density[species_ + s]);
+    }
+}
+
+/// Nodes at equal steps of a mixed measure: where the light comes from, altitude, and length.
+void RayFolder::placeNodes(FastRay& ray, const int nodes, NodeSet& set) const
+{
+    const auto& p = profile_.planet();
+    const double r = p.radius + ray.altitude, length = ray.bounds.back(), whole = ray.measure[ray.cells];
+    ray.position.assign(nodes, 0.);
+    for (int k = 1, c = 0; k < nodes && ray.cells > 0; ++k) {
+        const double target = whole * k / (nodes - 1);
+        while (c + 1 < ray.cells && ray.measure[c + 1] < target)
+            ++c;
+        const double step = ray.measure[c + 1] - ray.measure[c];
+        const double x = step > 0 ? std::clamp((target - ray.measure[c]) / step, 0., 1.) : 0.5;
+        ray.position[k] = std::min(length, ray.bounds[c] + x * (ray.bounds[c + 1] - ray.bounds[c]));
+    }
+    ray.position[nodes - 1] = length;
+    set.nodes.clear();
+    for (const double s : ray.position) {
+        const double h = physics::altitudeAlong(p, ray.altitude, ray.mu, s), rNode = p.radius + h;
+        set.nodes.push_back({h, r / rNode, s / rNode, std::clamp((r * ray.mu + s) / rNode, -1., 1.)});
+    }
+    set.weights.resize(static_cast<std::size_t>(nodes) * scatterers_.size() * blocks_, Block{all(0)});
+    ray.place.resize(ray.cells);
+    ray.placeShare.resize(ray.cells);
+    for (int c = 0, k = 0; c < ray.cells; ++c) {
+        const double middle = 0.5 * (ray.bounds[c] + ray.bounds[c + 1]);
+        while (k + 2 < nodes && ray.position[k + 1] < middle)
+            ++k;
+        const double gap = ray.position[k + 1] - ray.position[k];
+        ray.place[c] = k;
+        ray.placeShare[c] = gap > 0 ? static_cast<float>(std::clamp((middle - ray.position[k]) / gap, 0., 1.)) : 0.f;
+    }
+}
+
+void RayFolder::trace(const double altitude, const double mu, FastRay& ray) const
+{
+    if (ray.altitude == altitude && ray.mu == mu)
+        return;
+    const auto& p = profile_.planet();
+    ray.altitude = altitude;
+    ray.mu = mu;
+    ray.hitsGround = physics::hitsGround(p, altitude, mu);
+    walk(ray);
+    findColumns(ray);
+    ray.seen.resize(static_cast<std::size_t>(ray.cells) * blocks_, Block{all(0)});
+    ray.transmittance.resize(blocks_, Block{all(0)});
+    ray.share.resize(ray.cells);
+    const CellLoop loop{ray.cells, species_, scatterers(), blocks_, ray.columns.data(), scatterers_.data(),
+                        extinctions_.data(), scatterings_.data(), ray.seen.data(), ray.transmittance.data(), ray.share.data()};
+    foldCells(loop);
+
+    double total = 0, turned = 0;
+    ray.climb.resize(ray.cells);
+    double from = spread(p, altitude);
+    for (int c = 0; c < ray.cells; ++c) {
+        const double to = spread(p, ray.heights[c + 1]);
+        ray.climb[c] = std::abs(to - from);
+        from = to;
+        turned += ray.climb[c];
+        total += double(ray.share[c]);
+    }
+    ray.measure.assign(1, 0.);
+    for (int c = 0; c < ray.cells; ++c) {
+        const double light = total > 0 ? double(ray.share[c]) / total : 0, climb = turned > 0 ? ray.climb[c] / turned : 0;
+        const double way = (ray.bounds[c + 1] - ray.bounds[c]) / ray.bounds.back();
+        ray.measure.push_back(ray.measure.back() + 0.3 * light + 0.2 * climb + 0.5 * way);
+    }
+    for (const auto& [nodes, set] : {std::pair{effort_.singleNodes, &ray.single}, std::pair{effort_.multipleNodes, &ray.multiple}}) {
+        placeNodes(ray, nodes, *set);
+        foldWeights(loop, {ray.place.data(), ray.placeShare.data()}, nodes, set->weights.data());
+    }
+    ray.ground = ray.single.nodes.back();
+    ++ray.version;
+}
+
+} // namespace showmysky

@@ -1,0 +1,82 @@
+#pragma once
+// Rays for photometric questions: the product integration of physics/ray.hpp, in single precision and without allocations.
+
+#include "photometry_lanes.hpp"
+#include "physics/optics.hpp"
+#include "physics/profile.hpp"
+#include <vector>
+
+namespace showmysky {
+
+/// How much work a question may cost. The default holds 0.1 % by day (tests/showmysky/photometry_accuracy.cpp).
+struct Effort {
+    int singleNodes = 72;   ///< along a ray, for the direct light
+    int multipleNodes = 20; ///< for the field
+    double cellSteepness = 0.6; ///< largest change of ln density over a cell; attenuation inside cells is exact
+    double cellLength = 0.1;    ///< largest share of the ray
+    double cellDepth = 0.25;    ///< largest optical depth
+    double profileTolerance = 1e-3; ///< relative, of densities
+};
+
+/// Nodes along a ray and what each is worth.
+struct NodeSet {
+    struct Node {
+        double altitude, sunScale, nuScale, mu; ///< as physics::RayNodes::Node
+    };
+    std::vector<Node> nodes;
+    lanes::Blocks weights; ///< [node][scatterer][block], scattering optical depth seen
+};
+
+/// One traced ray, and the memory to trace the next.
+struct FastRay {
+    double altitude = -1, mu = 0; ///< where it starts; altitude -1: nothing is traced yet
+    bool hitsGround = false;
+    NodeSet::Node ground{};              ///< the ray's end
+    lanes::Blocks transmittance;         ///< [block], to the ray's end
+    NodeSet single, multiple;
+    unsigned version = 0;                ///< counts the rays traced
+
+    int cells = 0;
+    std::vector<double> bounds, heights; ///< [cells + 1], distance and altitude
+    std::vector<int> intervals;          ///< [cells], of the profile
+    lanes::Blocks arguments, logarithmic, densities; ///< [cells][2 points][species] in a row
+    std::vector<float> columns;          ///< [cells][species], in units of RayFolder's scales
+    std::vector<float> share;            ///< [cells], light scattered there
+    lanes::Blocks seen;                  ///< [cells][block], mean transmittance
+    std::vector<double> climb, measure, position;
+    std::vector<int> place;              ///< [cells], node before the cell
+    std::vector<float> placeShare;       ///< [cells], share of the node after it
+};
+
+/// Traces rays through one medium. Const functions are thread-safe.
+class RayFolder
+{
+public:
+    RayFolder(const sky::physics::Profile& profile, const sky::physics::Optics& optics, const Effort& effort);
+
+    /// Follows the ray from `altitude` (0..top) in direction `mu`; does nothing where that was the last one.
+    void trace(double altitude, double mu, FastRay& ray) const;
+
+    int blocks() const { return blocks_; }
+    int scatterers() const { return static_cast<int>(scatterers_.size()); }
+
+private:
+    void walk(FastRay& ray) const;
+    void findColumns(FastRay& ray) const;
+    void placeNodes(FastRay& ray, int count, NodeSet& set) const;
+
+    struct Segment {
+        double start, slope; ///< of the density, or of its logarithm, in the interval
+        float logarithmic;   ///< 1 or 0
+    };
+    const sky::physics::Profile& profile_;
+    Effort effort_;
+    int species_, blocks_;
+    std::vector<int> scatterers_;
+    std::vector<Segment> segments_;   ///< [interval][species], densities in units of their largest
+    std::vector<double> extinction_;  ///< [interval], m^-1, the largest of its ends and wavelengths
+    lanes::Blocks extinctions_;       ///< [species][block], cross section times largest density
+    lanes::Blocks scatterings_;       ///< [scatterer][block]
+};
+
+} // namespace showmysky
