@@ -6,6 +6,8 @@ std::vector<std::unique_ptr<Subcommand>> makeSubcommands()
 {
     std::vector<std::unique_ptr<Subcommand>> all;
     all.push_back(makeRender());
+    all.push_back(makeProbe());
+    all.push_back(makeInfo());
     return all;
 }
 

@@ -4,20 +4,13 @@
 #include "model/moment_tables.hpp"
 #include "physics/colour.hpp"
 #include <algorithm>
-#include <thread>
 
 namespace showmysky {
-
-namespace {
-
-int threads() { return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 8); }
-
-} // namespace
 
 PhotometryModel::PhotometryModel(const std::string& directory)
     : model(sky::model::Model::open(directory)), medium(sky::model::readMedium(model)), profile(medium),
       optics(sky::model::readOptics(model, medium)),
-      sun(profile, optics, medium.sunAngularRadius, 96, 128, threads()), evaluator(medium, profile, optics, sun),
+      sun(profile, optics, medium.sunAngularRadius), evaluator(medium, profile, optics, sun),
       luminanceWeights(sky::physics::luminanceWeights(medium.wavelengthsNm))
 {
     if (model.hasTable("moments")) {
@@ -28,7 +21,7 @@ PhotometryModel::PhotometryModel(const std::string& directory)
     }
     if (std::any_of(optics.truncation.begin(), optics.truncation.end(), [](double f) { return f > 0; })) {
         trueOptics = sky::physics::makeOptics(medium, optics.degree, false);
-        trueSun.emplace(profile, *trueOptics, medium.sunAngularRadius, 96, 128, threads());
+        trueSun.emplace(profile, *trueOptics, medium.sunAngularRadius);
     }
 }
 

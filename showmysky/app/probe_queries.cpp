@@ -1,0 +1,159 @@
+#include "probe_queries.hpp"
+#include "base/error.hpp"
+#include "base/suggest.hpp"
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <istream>
+
+namespace showmysky::app {
+
+namespace {
+
+constexpr double degree = 3.14159265358979323846 / 180;
+constexpr std::size_t complaintsAtMost = 20;
+
+struct Cell {
+    std::string text;
+    int column; ///< in characters, from 1
+};
+
+/// Cells of a line; quotes as RFC 4180 has them. Spaces around a cell don't count.
+std::vector<Cell> cellsOf(const std::string& line)
+{
+    std::vector<Cell> cells;
+    Cell cell{{}, 1};
+    bool quoted = false;
+    int column = 1;
+    const auto finish = [&] {
+        const auto from = cell.text.find_first_not_of(" \t"), to = cell.text.find_last_not_of(" \t");
+        if (from != std::string::npos)
+            cell.column += static_cast<int>(from);
+        cell.text = from == std::string::npos ? "" : cell.text.substr(from, to - from + 1);
+        cells.push_back(cell);
+    };
+    for (const char c : line) {
+        if (c == '"') {
+            quoted = !quoted;
+        } else if (c == ',' && !quoted) {
+            finish();
+            cell = {{}, column + 1};
+        } else {
+            cell.text += c;
+        }
+        if ((static_cast<unsigned char>(c) & 0xC0) != 0x80) // not inside a UTF-8 character
+            ++column;
+    }
+    finish();
+    return cells;
+}
+
+struct Field {
+    const char* name;
+    double low, high, unit;
+    const char* range;
+    double Photometer::View::*target;
+};
+
+constexpr std::array<Field, 5> fields{{
+    {"altitude_m", 0, 1e15, 1, "0 or more", &Photometer::View::altitude},
+    {"sun_zenith_deg", 0, 180, degree, "0 to 180", &Photometer::View::sunZenithAngle},
+    {"sun_azimuth_deg", -1e6, 1e6, degree, "a finite angle", &Photometer::View::sunAzimuth},
+    {"view_zenith_deg", 0, 180, degree, "0 to 180", &Photometer::View::viewZenithAngle},
+    {"view_azimuth_deg", -1e6, 1e6, degree, "a finite angle", &Photometer::View::viewAzimuth},
+}};
+constexpr std::array eclipseColumns{"moon_zenith_deg", "moon_azimuth_deg", "earth_moon_distance_m"};
+
+std::array<std::size_t, fields.size()> findColumns(const std::vector<Cell>& header, const std::string& name)
+{
+    std::vector<std::string> names;
+    for (const auto& cell : header)
+        names.push_back(cell.text);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const std::string place = name + ":1:" + std::to_string(header[i].column) + ": ";
+        if (std::find(eclipseColumns.begin(), eclipseColumns.end(), names[i]) != eclipseColumns.end())
+            throw sky::UsageError(place + "the column `" + names[i] +
+                                  "` asks for an eclipse, and this version computes none. Leave the Moon's columns out.");
+        if (std::count(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]))
+            throw sky::UsageError(place + "the column `" + names[i] + "` is there twice.");
+    }
+    std::array<std::size_t, fields.size()> result{};
+    for (std::size_t f = 0; f < fields.size(); ++f) {
+        const auto found = std::find(names.begin(), names.end(), fields[f].name);
+        if (found == names.end())
+            throw sky::UsageError(name + ":1:1: the column `" + fields[f].name +
+                                  "` is missing; expected altitude_m, sun_zenith_deg, sun_azimuth_deg, view_zenith_deg and "
+                                  "view_azimuth_deg." +
+                                  sky::suggestion(fields[f].name, names));
+        result[f] = static_cast<std::size_t>(found - names.begin());
+    }
+    return result;
+}
+
+/// The number in a cell; says what is wrong with it.
+bool parse(const Cell& cell, const Field& field, double& value, std::string& problem)
+{
+    const char *first = cell.text.data(), *last = first + cell.text.size();
+    if (first != last && *first == '+')
+        ++first;
+    const auto [end, code] = std::from_chars(first, last, value);
+    if (cell.text.empty())
+        problem = "is empty";
+    else if (code != std::errc{} || end != last || !std::isfinite(value))
+        problem = "is \"" + cell.text + "\", which is not a number";
+    else if (value < field.low || value > field.high)
+        problem = "is " + cell.text;
+    else
+        return true;
+    problem = std::string(field.name) + " " + problem + "; expected " + field.range + ".";
+    return false;
+}
+
+} // namespace
+
+ProbeQueries readQueries(std::istream& stream, const std::string& name)
+{
+    ProbeQueries queries;
+    const auto next = [&](std::string& line) {
+        if (!std::getline(stream, line))
+            return false;
+        if (!line.empty() && line.back() == '\r')
+            line.pop_back();
+        return true;
+    };
+    if (!next(queries.header) || queries.header.empty())
+        throw sky::UsageError(name + ":1:1: the file is empty; expected a header that names the columns.");
+    if (queries.header.starts_with("\xEF\xBB\xBF")) // byte order mark
+        queries.header.erase(0, 3);
+    const auto header = cellsOf(queries.header);
+    const auto columns = findColumns(header, name);
+    std::string line, problem;
+    for (int number = 2; next(line); ++number) {
+        if (line.find_first_not_of(" \t") == std::string::npos)
+            continue;
+        const auto complain = [&](int column, const std::string& what) {
+            if (queries.complaints.size() < complaintsAtMost)
+                queries.complaints.push_back(name + ":" + std::to_string(number) + ":" + std::to_string(column) + ": " + what);
+        };
+        const auto cells = cellsOf(line);
+        Photometer::View view;
+        if (cells.size() != header.size()) {
+            complain(cells.size() > header.size() ? cells[header.size()].column : cells.back().column,
+                     "the line has " + std::to_string(cells.size()) + " cells; the header has " + std::to_string(header.size()) + ".");
+            continue;
+        }
+        for (std::size_t f = 0; f < fields.size(); ++f) {
+            double value = 0;
+            if (parse(cells[columns[f]], fields[f], value, problem))
+                view.*fields[f].target = value * fields[f].unit;
+            else
+                complain(cells[columns[f]].column, problem);
+        }
+        queries.lines.push_back(line);
+        queries.views.push_back(view);
+    }
+    return queries;
+}
+
+} // namespace showmysky::app

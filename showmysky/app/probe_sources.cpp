@@ -1,0 +1,141 @@
+#include "probe_sources.hpp"
+#include "base/error.hpp"
+#include "model/medium_tables.hpp"
+#include "model/scattering_table.hpp"
+#include "physics/geometry.hpp"
+#include "physics/harmonics.hpp"
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+namespace showmysky::app {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+std::vector<std::string> spectralColumns(const std::vector<double>& wavelengthsNm)
+{
+    std::vector<std::string> names;
+    for (const double nm : wavelengthsNm) {
+        char text[64];
+        std::snprintf(text, sizeof text, "L_%.7gnm", nm);
+        names.push_back(text);
+    }
+    return names;
+}
+
+class MomentSource : public ProbeSource
+{
+public:
+    MomentSource(const std::string& directory, Photometer::Method method) : photometer_(directory, method) {}
+    std::vector<std::string> columns() const override { return spectralColumns(photometer_.wavelengthsNm()); }
+    void answer(const Photometer::View& view, unsigned layers, double* values) override
+    {
+        photometer_.radiance(view, layers, values);
+    }
+
+private:
+    Photometer photometer_;
+};
+
+class TextureSource : public ProbeSource
+{
+public:
+    explicit TextureSource(const std::string& directory)
+        : model_(sky::model::Model::open(directory)), medium_(sky::model::readMedium(model_)),
+          planet_{medium_.planetRadius, medium_.topOfAtmosphere}, photometer_(directory)
+    {
+        spectral_ = true;
+        for (const auto& species : medium_.species)
+            if (species.scatters()) {
+                single_.push_back({&species, sky::model::ScatteringTable(model_, "single-scattering/" + species.name), {}});
+                spectral_ = spectral_ && single_.back().table.table().channels == sky::model::Channels::SpectralRadiance;
+            }
+        if (model_.manifest().scatteringOrders > 1 || model_.manifest().allScatteringOrders) {
+            multiple_.emplace(Part{nullptr, sky::model::ScatteringTable(model_, "multiple-scattering"), {}});
+            spectral_ = spectral_ && multiple_->table.table().channels == sky::model::Channels::SpectralRadiance;
+        }
+    }
+
+    std::vector<std::string> columns() const override
+    {
+        return spectral_ ? spectralColumns(medium_.wavelengthsNm) : std::vector<std::string>{"X", "Y", "Z", "scotopic"};
+    }
+
+    void answer(const Photometer::View& view, unsigned layers, double* values) override
+    {
+        if (layers & Photometer::lightPollution)
+            throw sky::UsageError("The model '" + model_.directory().string() + "' holds no light pollution.");
+        if (view.altitude > planet_.topOfAtmosphere)
+            throw sky::UsageError("The textures end at the top of the atmosphere, " + std::to_string(planet_.topOfAtmosphere) +
+                                  " m; use --source moments for views from above.");
+        std::vector<double> spectrum(medium_.wavelengthCount(), 0.), xyz(4, 0.);
+        if (layers & Photometer::zeroOrder)
+            photometer_.radiance(view, Photometer::zeroOrder, spectrum.data());
+        const double nu = std::cos(view.viewZenithAngle) * std::cos(view.sunZenithAngle) +
+                          std::sin(view.viewZenithAngle) * std::sin(view.sunZenithAngle) * std::cos(view.viewAzimuth - view.sunAzimuth);
+        if (layers & Photometer::singleScattering)
+            for (auto& part : single_)
+                add(part, view, std::acos(std::clamp(nu, -1., 1.)), spectrum, xyz);
+        if ((layers & Photometer::multipleScattering) && multiple_)
+            add(*multiple_, view, 0, spectrum, xyz);
+        if (spectral_) {
+            std::copy(spectrum.begin(), spectrum.end(), values);
+            return;
+        }
+        const auto colour = photometer_.colourOf(spectrum.data());
+        values[0] = xyz[0] + colour.X;
+        values[1] = xyz[1] + colour.Y;
+        values[2] = xyz[2] + colour.Z;
+        values[3] = xyz[3] + colour.scotopic;
+    }
+
+private:
+    struct Part {
+        const sky::physics::Species* species; ///< null: multiple scattering
+        sky::model::ScatteringTable table;
+        std::vector<float> slice;             ///< of the altitude and Sun below
+        double altitude = -1, sun = 0;
+    };
+
+    void add(Part& part, const Photometer::View& view, double scatteringAngle, std::vector<double>& spectrum,
+             std::vector<double>& xyz) const
+    {
+        const double sun = pi / 2 - view.sunZenithAngle;
+        if (part.altitude != view.altitude || part.sun != sun) {
+            part.slice = part.table.slice(view.altitude, sun);
+            part.altitude = view.altitude;
+            part.sun = sun;
+        }
+        const bool luminance = part.table.table().channels == sky::model::Channels::Luminance;
+        std::vector<double> value(luminance ? 4 : spectrum.size()), phase(spectrum.size(), 1.);
+        part.table.sample(part.slice, view.altitude, pi / 2 - view.viewZenithAngle, view.viewAzimuth - view.sunAzimuth, value.data());
+        // Tables of smooth phase functions hold them already; a table of luminance has one for all wavelengths.
+        if (part.species && !part.species->smooth)
+            sky::physics::phaseFunctionAt(medium_, *part.species, scatteringAngle, phase.data());
+        auto& sum = luminance ? xyz : spectrum;
+        for (std::size_t i = 0; i < value.size(); ++i)
+            sum[i] += value[i] * phase[luminance ? 0 : i];
+    }
+
+    sky::model::Model model_;
+    sky::physics::Medium medium_;
+    sky::physics::Planet planet_;
+    Photometer photometer_;
+    std::vector<Part> single_;
+    std::optional<Part> multiple_;
+    bool spectral_ = false;
+};
+
+} // namespace
+
+std::unique_ptr<ProbeSource> makeMomentSource(const std::string& directory, Photometer::Method method)
+{
+    return std::make_unique<MomentSource>(directory, method);
+}
+
+std::unique_ptr<ProbeSource> makeTextureSource(const std::string& directory) { return std::make_unique<TextureSource>(directory); }
+
+} // namespace showmysky::app
