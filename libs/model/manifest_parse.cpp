@@ -269,9 +269,9 @@ Manifest parseManifest(const std::string& text, const std::string& place)
     m.planetRadius = root["planetRadius"].number(1e-3, 1e20);
     m.topOfAtmosphere = root["topOfAtmosphere"].number(1e-6, 1e20);
     m.sunAngularRadius = root["sunAngularRadius"].number(0, 1.6);
-    m.sunDistance = root["sunDistance"].number(0, 1e30);
-    m.moonDistance = root["moonDistance"].number(0, 1e30);
-    m.moonRadius = root["moonRadius"].number(0, 1e30);
+    m.sunDistance = root["sunDistance"].number(0, 1e32);
+    m.moonDistance = root["moonDistance"].number(0, 1e32);
+    m.moonRadius = root["moonRadius"].number(0, 1e32);
     m.wavelengthsNm = root["wavelengthsNm"].numbers(1e-6, 1e9);
     if (m.wavelengthsNm.empty() || m.wavelengthsNm.size() > 8192)
         root["wavelengthsNm"].fail("has " + std::to_string(m.wavelengthsNm.size()) + " values; 1 to 8192 are expected");

@@ -17,7 +17,7 @@ public:
     /// Axis in the elevation x above the lowest Sun that still shows: u = asinh(x / scale) / asinh(range / scale).
     static constexpr double elevationScale = 0.03; ///< rad
 
-    SunTable(const Profile& profile, const Optics& optics, double sunAngularRadius, int altitudes = 96, int elevations = 128,
+    SunTable(const Profile& profile, const Optics& optics, double sunAngularRadius, int altitudes = 56, int elevations = 112,
              int threads = 2);
 
     const std::vector<double>& altitudes() const { return altitudes_; }

@@ -1,6 +1,7 @@
 // The 4D tables: one gather per texel of what the description asks for, altitude by altitude.
 
 #include "solver/bake.hpp"
+#include "base/parallel.hpp"
 #include "physics/colour.hpp"
 #include "physics/table_axes.hpp"
 #include <cmath>
@@ -195,21 +196,25 @@ void bakeTransmittance(const BakeJob& job, model::ModelWriter& writer)
         view.nodes.push_back(k);
     const auto altitudes = physics::altitudeNodes(planet, size.altitude);
     spec.axes = {{"altitude", "m", altitudes, {"horizon-distance", {}}}, view};
-    std::vector<float> values;
-    physics::RayTracer tracer(job.scene.profile, job.scene.optics);
-    std::vector<double> columns(medium.species.size());
-    for (const double h : altitudes) {
-        const double horizon = physics::horizonElevation(planet, h);
-        for (const double x : physics::horizonAngleNodes(std::acos(-1.) / 2 - horizon, size.zenithAngle)) {
-            tracer.columns(h, std::min(1., std::sin(horizon + x)), columns.data());
-            for (int w = 0; w < medium.wavelengthCount(); ++w) {
-                double depth = 0;
-                for (std::size_t s = 0; s < columns.size(); ++s)
-                    depth += columns[s] * medium.species[s].extinctionCrossSection[w];
-                values.push_back(static_cast<float>(std::exp(-depth)));
+    const int wavelengths = medium.wavelengthCount();
+    std::vector<float> values(std::size_t(size.altitude) * size.zenithAngle * wavelengths);
+    base::parallel([&](int thread, int threads) {
+        physics::RayTracer tracer(job.scene.profile, job.scene.optics, 2);
+        std::vector<double> columns(medium.species.size());
+        for (int a = thread; a < size.altitude; a += threads) {
+            const double h = altitudes[a], horizon = physics::horizonElevation(planet, h);
+            const auto angles = physics::horizonAngleNodes(std::acos(-1.) / 2 - horizon, size.zenithAngle);
+            for (int k = 0; k < size.zenithAngle; ++k) {
+                tracer.columns(h, std::min(1., std::sin(horizon + angles[k])), columns.data());
+                for (int w = 0; w < wavelengths; ++w) {
+                    double depth = 0;
+                    for (std::size_t s = 0; s < columns.size(); ++s)
+                        depth += columns[s] * medium.species[s].extinctionCrossSection[w];
+                    values[(std::size_t(a) * size.zenithAngle + k) * wavelengths + w] = static_cast<float>(std::exp(-depth));
+                }
             }
         }
-    }
+    });
     writer.table(spec, values);
 }
 

@@ -7,6 +7,10 @@ namespace sky::solver {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
+/// Sets of wavelengths that one dispatch carries along: more would spill registers and compile for ever.
+constexpr int mostSets = 4;
+int setsTogether(const Scene& scene) { return std::min(mostSets, scene.sets()); }
+
 /// Work of one dispatch, in node visits: some tens of milliseconds on two cores, far below any watchdog on a GPU.
 constexpr std::size_t visitsPerDispatch = 1 << 21;
 /// What fold() writes for one dispatch.
@@ -14,7 +18,7 @@ constexpr std::size_t sourceBytes = std::size_t(16) << 20;
 
 std::vector<gl::Define> definesOf(const Scene& scene, const std::vector<std::array<double, 4>>& luminance)
 {
-    std::vector<gl::Define> defines{{"SETS", std::to_string(scene.sets())},
+    std::vector<gl::Define> defines{{"SETS", std::to_string(setsTogether(scene))},
                                     {"DEGREE", std::to_string(scene.optics.degree)},
                                     {"SCATTERERS", std::to_string(scene.scatterers())}};
     if (!luminance.empty())
@@ -22,14 +26,17 @@ std::vector<gl::Define> definesOf(const Scene& scene, const std::vector<std::arr
     return defines;
 }
 
-void setLuminance(gl::Program& program, const Scene& scene, const std::vector<std::array<double, 4>>& luminance)
+/// Chooses the sets of a dispatch.
+void setSets(gl::Program& program, const Scene& scene, int first, const std::vector<std::array<double, 4>>& luminance)
 {
+    program.set("firstSet", first);
+    program.set("totalSets", scene.sets());
     if (luminance.empty())
         return;
-    std::vector<std::array<float, 4>> values(scene.sets() * 4);
-    for (std::size_t w = 0; w < luminance.size(); ++w)
+    std::vector<std::array<float, 4>> values(setsTogether(scene) * 4);
+    for (std::size_t w = 0; w < values.size() && first * 4 + w < luminance.size(); ++w)
         for (int c = 0; c < 4; ++c)
-            values[w][c] = static_cast<float>(luminance[w][c]);
+            values[w][c] = static_cast<float>(luminance[first * 4 + w][c]);
     program.setVec4s("luminance", values);
 }
 
@@ -101,9 +108,8 @@ DirectGather::DirectGather(const gl::Api& api, const Scene& scene, Purpose purpo
     : api_(api), scene_(scene),
       program_(gl::ProgramBuilder(api, shaders::source)
                    .compute("direct gather", "solve/direct.comp", directDefines(scene, purpose, luminance))),
-      sunDepths_(api, "sunlight optical depths", sunDepthTexels(scene)), phases_(api, "phase functions", phaseTexels(scene, purpose != Purpose::table))
+      luminance_(luminance), sunDepths_(api, "sunlight optical depths", sunDepthTexels(scene)), phases_(api, "phase functions", phaseTexels(scene, purpose != Purpose::table))
 {
-    setLuminance(program_, scene, luminance);
 }
 
 void DirectGather::gather(const DirectRays& rays, const SunSamples& samples, Strides strides,
@@ -122,7 +128,7 @@ void DirectGather::gather(const DirectRays& rays, const SunSamples& samples, Str
     for (std::size_t i = 0; i < withPhase.size(); ++i) {
         program_.set("withPhase[" + std::to_string(i) + "]", withPhase[i] ? 1 : 0);
         program_.set("resultOffsets[" + std::to_string(i) + "]",
-                     static_cast<int>(i) * texels * (program_.has("luminance[0]") ? 1 : scene_.sets()));
+                     static_cast<int>(i) * texels * (luminance_.empty() ? scene_.sets() : 1));
     }
     results.bindStorage(0);
     const gl::Bound pass(program_);
@@ -131,8 +137,12 @@ void DirectGather::gather(const DirectRays& rays, const SunSamples& samples, Str
     for (int first = 0; first < rays.count; first += chunk) {
         breath();
         program_.set("firstRay", first);
-        program_.dispatchOver(static_cast<unsigned>(samples.suns * samples.azimuths),
-                              static_cast<unsigned>(std::min(chunk, rays.count - first)));
+        for (int set = 0; set < scene_.sets(); set += setsTogether(scene_)) {
+            setSets(program_, scene_, set, luminance_);
+            program_.dispatchOver(static_cast<unsigned>(samples.suns * samples.azimuths),
+                                  static_cast<unsigned>(std::min(chunk, rays.count - first)));
+            gl::memoryBarrier(api_);
+        }
         api_->Flush();
     }
     gl::memoryBarrier(api_);
@@ -145,9 +155,9 @@ ScatteredGather::ScatteredGather(const gl::Api& api, const Scene& scene, bool fr
           auto defines = definesOf(scene, luminance);
           defines.push_back({"FROM_GROUND", fromGround ? "1" : "0"});
           return gl::ProgramBuilder(api, shaders::source).compute("scattered gather", "solve/scattered.comp", defines);
-      }())
+      }()),
+      luminance_(luminance)
 {
-    setLuminance(program_, scene, luminance);
 }
 
 void ScatteredGather::gather(const ScatteredRays& rays, const FineField& field, const SunSamples& samples, Strides strides,
@@ -176,7 +186,11 @@ void ScatteredGather::gather(const ScatteredRays& rays, const FineField& field, 
         const int count = std::min(chunk, rays.count - first);
         source_->buffer.rewrite(count * perRay * 16, [&](void* to) { fold(field, rays, first, count, static_cast<float*>(to)); });
         program_.set("firstRay", first);
-        program_.dispatchOver(static_cast<unsigned>(samples.suns * samples.azimuths), static_cast<unsigned>(count));
+        for (int set = 0; set < scene_.sets(); set += setsTogether(scene_)) {
+            setSets(program_, scene_, set, luminance_);
+            program_.dispatchOver(static_cast<unsigned>(samples.suns * samples.azimuths), static_cast<unsigned>(count));
+            gl::memoryBarrier(api_);
+        }
         api_->Flush();
     }
     gl::memoryBarrier(api_);

@@ -43,6 +43,7 @@ private:
     gl::Api api_;
     const Scene scene_;
     gl::Program program_;
+    std::vector<std::array<double, 4>> luminance_;
     TexelBuffer sunDepths_, phases_;
 };
 
@@ -61,6 +62,7 @@ private:
     gl::Api api_;
     const Scene scene_;
     gl::Program program_;
+    std::vector<std::array<double, 4>> luminance_;
     std::optional<TexelBuffer> source_; // kept between calls: it is large
     std::size_t sourceTexels_ = 0;
 };

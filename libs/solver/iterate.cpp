@@ -172,17 +172,33 @@ void add(std::vector<double>& to, const std::vector<double>& what, double factor
         to[i] += factor * what[i];
 }
 
-/// Largest ratio of what the last event added to the sum, over wavelengths and levels, for Suns that give daylight.
-double share(const Sums& last, const Sums& total, int harmonics, int wavelengths)
+/// What all later events will add to a value, from the last two: events die out as a geometric series once only their slowest
+/// mode is left.
+double tail(double last, double before)
+{
+    const double ratio = before > 0 ? std::clamp(last / before, 0., 0.999) : 0.;
+    return ratio / (1 - ratio) * last;
+}
+
+/// Largest relative difference that the last event made to the estimate of the whole, over wavelengths, levels and Suns that
+/// light the air at all. `closed`: the estimate includes the tail; else it is the sum so far.
+double change(const Sums& total, const Sums& last, const Sums& before, const Sums& earlier, bool closed, int harmonics,
+              int wavelengths)
 {
     double largest = 0, brightest = 0;
-    for (std::size_t i = 0; i < total.moments.size(); i += std::size_t(harmonics) * wavelengths)
+    const std::size_t step = std::size_t(harmonics) * wavelengths;
+    for (std::size_t i = 0; i < total.moments.size(); i += step)
         for (int w = 0; w < wavelengths; ++w)
             brightest = std::max(brightest, total.moments[i + w]);
-    for (std::size_t i = 0; i < total.moments.size(); i += std::size_t(harmonics) * wavelengths)
-        for (int w = 0; w < wavelengths; ++w)
-            if (total.moments[i + w] > 1e-7 * brightest)
-                largest = std::max(largest, last.moments[i + w] / total.moments[i + w]);
+    for (std::size_t i = 0; i < total.moments.size(); i += step)
+        for (int w = 0; w < wavelengths; ++w) {
+            const double sum = total.moments[i + w], added = last.moments[i + w];
+            if (sum <= 1e-7 * brightest)
+                continue;
+            const double now = closed ? sum + tail(added, before.moments[i + w]) : sum;
+            const double then = closed ? sum - added + tail(before.moments[i + w], earlier.moments[i + w]) : sum - added;
+            largest = std::max(largest, std::abs(now - then) / now);
+        }
     return largest;
 }
 
@@ -207,8 +223,10 @@ RadiationField iterate(const gl::Api& api, const Scene& scene, const physics::Mo
     if (keepEvents)
         field.perEvent.push_back(sweeps.toMoments(last));
     const double tolerance = limit.tolerance > 0 ? limit.tolerance : limit.all ? 1e-3 : 0;
+    Sums before, earlier;
     for (int event = 2; event <= wanted; ++event) {
-        const Sums before = std::move(last);
+        earlier = std::move(before);
+        before = std::move(last);
         last = sweeps.scattered(sweeps.toMoments(before), [&] { breath(fractionOf(event - 1)); });
         add(total.moments, last.moments);
         add(total.irradiance, last.irradiance);
@@ -216,26 +234,25 @@ RadiationField iterate(const gl::Api& api, const Scene& scene, const physics::Mo
         field.irradiance.push_back(last.irradiance);
         if (keepEvents)
             field.perEvent.push_back(sweeps.toMoments(last));
-        if (!(tolerance > 0))
+        if (!(tolerance > 0) || (limit.all && event < 3))
             continue;
-        // Events die out as a geometric series once the slowest mode is left: what is still to come is last r / (1 - r).
-        const double added = share(last, total, harmonics, wavelengths);
-        if (added < tolerance || event == wanted) {
-            if (limit.all)
-                for (std::size_t i = 0; i < total.moments.size(); i += std::size_t(harmonics) * wavelengths)
-                    for (int w = 0; w < wavelengths; ++w) {
-                        const double earlier = before.moments[i + w];
-                        const double ratio = earlier > 0 ? std::clamp(last.moments[i + w] / earlier, 0., 0.999) : 0.;
-                        for (int lm = 0; lm < harmonics; ++lm)
-                            total.moments[i + lm * wavelengths + w] += ratio / (1 - ratio) * last.moments[i + lm * wavelengths + w];
-                    }
-            if (limit.all)
-                for (std::size_t i = 0; i < total.irradiance.size(); ++i) {
-                    const double ratio = before.irradiance[i] > 0 ? std::clamp(last.irradiance[i] / before.irradiance[i], 0., 0.999) : 0.;
-                    total.irradiance[i] += ratio / (1 - ratio) * last.irradiance[i];
-                }
-            field.remainder = added;
+        field.remainder = change(total, last, before, earlier, limit.all, harmonics, wavelengths);
+        if (field.remainder < tolerance)
             break;
+    }
+    if (limit.all && field.eventCount > 1) {
+        for (std::size_t i = 0; i < total.moments.size(); i += std::size_t(harmonics) * wavelengths)
+            for (int w = 0; w < wavelengths; ++w) {
+                // The tail has the shape of the last event in all harmonics.
+                const double scale = tail(last.moments[i + w], before.moments[i + w]) / std::max(last.moments[i + w], 1e-300);
+                for (int lm = 0; lm < harmonics; ++lm)
+                    total.moments[i + lm * wavelengths + w] += scale * last.moments[i + lm * wavelengths + w];
+            }
+        auto& closing = field.irradiance.back(); // orders beyond the last count with it
+        for (std::size_t i = 0; i < total.irradiance.size(); ++i) {
+            const double rest = tail(last.irradiance[i], before.irradiance[i]);
+            total.irradiance[i] += rest;
+            closing[i] += rest;
         }
     }
     field.total = sweeps.toMoments(total);

@@ -8,7 +8,7 @@ namespace sky::solver {
 /// When the iteration ends.
 struct OrderLimit {
     int orders = 4;          ///< of the light that is to be seen: the field needs one event less
-    bool all = false;        ///< go on until an order adds less than `tolerance`, then close the series
+    bool all = false;        ///< go on until closing the series as a geometric one changes it by less than `tolerance`
     double tolerance = 0;    ///< relative; 0: exactly `orders`
 };
 
@@ -19,7 +19,7 @@ struct RadiationField {
     physics::Moments firstFromGround;       ///< likewise: the part of event 1 that is reflection by the ground
     std::vector<std::vector<double>> irradiance; ///< [event - 1]: [altitude][sun][wavelength], downward, unit solar irradiance
     int eventCount = 0;
-    double remainder = 0;             ///< estimated relative share of what was cut off, largest over wavelengths at the ground by day
+    double remainder = 0;             ///< largest relative change by the last event, where a tolerance decided
 };
 
 /// Source iteration for the radiance moments (docs/method): each sweep gathers, for every level, Sun and direction, the light

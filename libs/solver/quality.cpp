@@ -11,17 +11,25 @@ namespace {
 /// Legendre moments below this don't show.
 constexpr double negligibleMoment = 1e-4;
 
-/// Smallest degree that holds all of every phase function, or `most`.
-int neededDegree(const physics::Medium& medium, int most)
+/// Smallest degree, up to `most`, above which no species' Legendre moments matter.
+///   tolerance  0: moments count by themselves; else by the share of light that the species scatters along the vertical
+int neededDegree(const physics::Medium& medium, int most, double tolerance)
 {
     int needed = 0;
     for (const auto& species : medium.species) {
-        if (!species.scatters() || *std::max_element(species.singleScatteringAlbedo.begin(), species.singleScatteringAlbedo.end()) <= 0)
+        if (!species.scatters())
             continue;
-        for (int w = 0; w < (species.achromatic ? 1 : medium.wavelengthCount()); ++w) {
+        double column = 0;
+        for (std::size_t k = 0; k + 1 < medium.altitudes.size(); ++k)
+            column += 0.5 * (species.numberDensity[k] + species.numberDensity[k + 1]) * (medium.altitudes[k + 1] - medium.altitudes[k]);
+        for (int w = 0; w < medium.wavelengthCount(); ++w) {
+            const double depth = column * species.extinctionCrossSection[w] * species.singleScatteringAlbedo[w];
+            if (!(depth > 0) || (w > 0 && species.achromatic && tolerance == 0))
+                continue;
+            const double weight = tolerance > 0 ? std::min(1., depth) / tolerance : 1 / negligibleMoment;
             const auto moments = physics::phaseMoments(medium, species, w, most);
             for (int l = most; l > needed; --l)
-                if (std::abs(moments[l]) > negligibleMoment) {
+                if (std::abs(moments[l]) * weight > 1) {
                     needed = l;
                     break;
                 }
@@ -32,7 +40,7 @@ int neededDegree(const physics::Medium& medium, int most)
 
 } // namespace
 
-Quality qualityFor(const std::string& name, const physics::Medium& medium)
+Quality qualityFor(const std::string& name, const physics::Medium& medium, const double tolerance)
 {
     Quality q;
     auto& m = q.moments;
@@ -53,13 +61,14 @@ Quality qualityFor(const std::string& name, const physics::Medium& medium)
     }
     // A peak worth truncating is worth more harmonics, and directions that resolve them.
     const auto optics = physics::makeOptics(medium, m.degree, true);
-    if (*std::max_element(optics.truncation.begin(), optics.truncation.end(), std::less<>()) > 0 && m.degree < 12) {
+    const bool truncated = std::any_of(optics.truncation.begin(), optics.truncation.end(), [](double f) { return f > 0; });
+    if (truncated && m.degree < 12) {
         m.degree *= 2;
         m.groundDirections += 2;
         m.skyDirections += 4;
         m.azimuths = std::max(m.azimuths, m.degree + 2);
     }
-    m.degree = std::min(m.degree, neededDegree(medium, m.degree));
+    m.degree = neededDegree(medium, m.degree, tolerance);
     return q;
 }
 

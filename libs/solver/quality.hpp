@@ -13,7 +13,8 @@ struct Quality {
 };
 
 /// \param name   draft, normal, fine or reference     throws UsageError
-/// \param medium what it holds decides the degree: molecules alone need 2; peaks that are truncated more than the rest
-Quality qualityFor(const std::string& name, const physics::Medium& medium);
+/// \param medium    what it holds decides the degree: molecules alone need 2; peaks that are truncated more than the rest
+/// \param tolerance drops harmonics that change less than this share of the light; 0: only those that are not there
+Quality qualityFor(const std::string& name, const physics::Medium& medium, double tolerance = 0);
 
 } // namespace sky::solver

@@ -94,7 +94,7 @@ void solve(const atmo::Description& description, const Options& options, gl::Hea
 
     // 2. Optics, and sunlight at every altitude.
     breath = stages.begin("sunlight", stages.work().sunlight);
-    const Quality quality = qualityFor(options.quality, medium);
+    const Quality quality = qualityFor(options.quality, medium, options.tolerance.value_or(0));
     const physics::Profile profile(medium);
     const physics::Optics optics = physics::makeOptics(medium, quality.moments.degree, quality.moments.truncatePeaks);
     const physics::SunTable sun(profile, optics, medium.sunAngularRadius);

@@ -26,10 +26,11 @@ void sunlight(float elevation, vec4 place, out vec4 light[SETS])
     float u = sunAxis(elevation, place.x, sunRadius, place.y) * float(elevations - 1);
     int k = min(int(u), elevations - 2);
     float x = u - float(k);
-    int near = (int(place.z) * elevations + k) * SETS, far = near + elevations * SETS;
+    int near = (int(place.z) * elevations + k) * totalSets, far = near + elevations * totalSets;
     for (int q = 0; q < SETS; ++q) {
-        vec4 below = mix(texelFetch(sunDepths, near + q), texelFetch(sunDepths, near + SETS + q), x);
-        vec4 above = mix(texelFetch(sunDepths, far + q), texelFetch(sunDepths, far + SETS + q), x);
+        int set = setIndex(q);
+        vec4 below = mix(texelFetch(sunDepths, near + set), texelFetch(sunDepths, near + totalSets + set), x);
+        vec4 above = mix(texelFetch(sunDepths, far + set), texelFetch(sunDepths, far + totalSets + set), x);
         light[q] = visible * exp(-mix(below, above, place.w));
     }
 }
@@ -48,10 +49,10 @@ void main()
     for (int k = 0; k < nodes; ++k) {
         vec4 node = texelFetch(rayNodes, first + 2 * k);
         sunlight(elevationOf(clamp(node.x * s.muSun + node.y * s.nu, -1.0, 1.0)), texelFetch(rayNodes, first + 2 * k + 1), light);
-        int w = (s.ray * nodes + k) * SCATTERERS * SETS;
+        int w = (s.ray * nodes + k) * SCATTERERS * totalSets;
         for (int i = 0; i < SCATTERERS; ++i)
             for (int q = 0; q < SETS; ++q)
-                lit[i * SETS + q] += texelFetch(weights, w + i * SETS + q) * light[q];
+                lit[i * SETS + q] += texelFetch(weights, w + i * totalSets + setIndex(q)) * light[q];
     }
 #endif
 #ifdef FIELD
@@ -62,7 +63,7 @@ void main()
         float p = 1.0, before = 0.0; // Legendre polynomials P_l(nu), P_(l-1)(nu)
         for (int l = 0; l <= DEGREE; ++l) {
             for (int q = 0; q < SETS; ++q)
-                total[q] += p * lit[i * SETS + q] * texelFetch(phases, (i * (DEGREE + 1) + l) * SETS + q);
+                total[q] += p * lit[i * SETS + q] * texelFetch(phases, (i * (DEGREE + 1) + l) * totalSets + setIndex(q));
             float after = (float(2 * l + 1) * s.nu * p - float(l) * before) / float(l + 1);
             before = p;
             p = after;
@@ -75,10 +76,10 @@ void main()
         sunlight(elevation, texelFetch(rayNodes, first + 2 * nodes + 1), light);
         float cosine = horizontalSunCosine(muSun, elevation, sunRadius);
         for (int q = 0; q < SETS; ++q)
-            total[q] += texelFetch(ground, s.ray * SETS + q) * cosine * light[q];
+            total[q] += texelFetch(ground, s.ray * totalSets + setIndex(q)) * cosine * light[q];
     }
     for (int q = 0; q < SETS; ++q)
-        results[s.texel * SETS + q] = max(total[q], vec4(0.0)); // a cut series may undershoot
+        storeSet(s.texel, q, max(total[q], vec4(0.0))); // a cut series may undershoot
 #else
     float position = pow(acos(s.nu) / (2.0 * halfPi), 1.0 / 3.0) * float(angles - 1);
     int angle = min(int(position), angles - 2);
@@ -86,15 +87,15 @@ void main()
         vec4 radiance[SETS];
         for (int q = 0; q < SETS; ++q) {
             radiance[q] = lit[i * SETS + q];
-            int at = (i * angles + angle) * SETS + q;
+            int at = (i * angles + angle) * totalSets + setIndex(q);
             if (withPhase[i] != 0)
-                radiance[q] *= mix(texelFetch(phases, at), texelFetch(phases, at + SETS), position - float(angle));
+                radiance[q] *= mix(texelFetch(phases, at), texelFetch(phases, at + totalSets), position - float(angle));
         }
 #ifdef LUMINANCE
-        results[resultOffsets[i] + s.texel] = toLuminance(radiance);
+        storeLuminance(resultOffsets[i] + s.texel, radiance);
 #else
         for (int q = 0; q < SETS; ++q)
-            results[resultOffsets[i] + s.texel * SETS + q] = radiance[q];
+            storeSet(resultOffsets[i] + s.texel, q, radiance[q]);
 #endif
     }
 #endif

@@ -1,12 +1,16 @@
 // What the gathers share: which ray, Sun and azimuth an invocation is for, and where its result goes.
 layout(local_size_x = 64) in;
 
+// Wavelengths go four to a set. A dispatch serves SETS of the totalSets in all, from firstSet on; the last dispatch may meet fewer.
+uniform int firstSet, totalSets;
+int setIndex(int q) { return min(firstSet + q, totalSets - 1); }
+
 uniform samplerBuffer sunCosines;     // [suns], cosine of the Sun's zenith angle at the ray's start
 uniform samplerBuffer azimuthCosines; // [azimuths], cos(phi) from the Sun's azimuth
 uniform samplerBuffer rayNodes;
 uniform int suns, azimuths, nodes, firstRay;
 uniform ivec3 strides; // of the result, in texels: ray, sun, azimuth
-layout(std430, binding = 0) writeonly buffer Results { vec4 results[]; };
+layout(std430, binding = 0) buffer Results { vec4 results[]; };
 
 #ifdef LUMINANCE
 uniform vec4 luminance[4 * SETS]; // one wavelength's X, Y, Z, scotopic for unit radiance, solar irradiance included
@@ -33,6 +37,13 @@ Sample sampleOfInvocation(float rayMu)
     return s;
 }
 
+// Spectral results: set q of a texel.
+void storeSet(int texel, int q, vec4 radiance)
+{
+    if (firstSet + q < totalSets)
+        results[texel * totalSets + firstSet + q] = radiance;
+}
+
 #ifdef LUMINANCE
 vec4 toLuminance(vec4 radiance[SETS])
 {
@@ -41,5 +52,12 @@ vec4 toLuminance(vec4 radiance[SETS])
         sum += radiance[q].x * luminance[4 * q] + radiance[q].y * luminance[4 * q + 1] + radiance[q].z * luminance[4 * q + 2]
              + radiance[q].w * luminance[4 * q + 3];
     return sum;
+}
+
+// Luminance sums over the dispatches; `luminance` is zero for sets beyond the last.
+void storeLuminance(int texel, vec4 radiance[SETS])
+{
+    vec4 sum = toLuminance(radiance);
+    results[texel] = firstSet > 0 ? results[texel] + sum : sum;
 }
 #endif

@@ -28,14 +28,15 @@ void main()
         int sun = min(int(position), fieldSuns - 2);
         float x = position - float(sun);
         float c = azimuthCosine(node.z, muSun, s.nu);
-        int at = ((int(gl_GlobalInvocationID.y) * (nodes + 1) + k) * fieldSuns + sun) * (terms + 1) * SETS;
-        const int next = (terms + 1) * SETS;
+        int at = ((int(gl_GlobalInvocationID.y) * (nodes + 1) + k) * fieldSuns + sun) * (terms + 1) * totalSets;
+        int next = (terms + 1) * totalSets;
         for (int q = 0; q < SETS; ++q) {
-            vec4 level = exp2(mix(texelFetch(source, at + q), texelFetch(source, at + next + q), x));
+            int set = at + setIndex(q);
+            vec4 level = exp2(mix(texelFetch(source, set), texelFetch(source, set + next), x));
             vec4 sum = vec4(0.0);
             float wave = 1.0, before = c; // cos(m phi), cos((m - 1) phi)
             for (int m = 0; m < terms; ++m) {
-                int i = at + (m + 1) * SETS + q;
+                int i = set + (m + 1) * totalSets;
                 sum += wave * mix(texelFetch(source, i), texelFetch(source, i + next), x);
                 float after = 2.0 * c * wave - before;
                 before = wave;
@@ -47,9 +48,9 @@ void main()
     for (int q = 0; q < SETS; ++q)
         total[q] = max(total[q], vec4(0.0)); // a series cut at DEGREE may undershoot beside a bright peak
 #ifdef LUMINANCE
-    results[s.texel] = toLuminance(total);
+    storeLuminance(s.texel, total);
 #else
     for (int q = 0; q < SETS; ++q)
-        results[s.texel * SETS + q] = total[q];
+        storeSet(s.texel, q, total[q]);
 #endif
 }
