@@ -36,9 +36,11 @@ Rgb developed(const Luminance& pixel, double factor, ToneCurve curve)
     const sky::physics::XYZ xyz{static_cast<double>(pixel.x) * factor, static_cast<double>(pixel.y) * factor,
                                 static_cast<double>(pixel.z) * factor};
     Rgb colour = intoGamut(sky::physics::linearSrgb(xyz), xyz[1]);
+    // As film does: a little more contrast, and thereby colour, about a middle tone; then light that saturates.
+    constexpr double middle = 0.3, contrast = 1.25;
     for (double& c : colour)
         if (curve == ToneCurve::exponential)
-            c = -std::expm1(-c);
+            c = -std::expm1(-middle * std::pow(c / middle, contrast));
         else if (curve == ToneCurve::reinhard)
             c /= 1 + xyz[1];
     return colour;
@@ -71,7 +73,9 @@ double automaticExposure(const Picture& picture)
     const double mean = std::exp(sum / static_cast<double>(luminances.size()));
     const auto bright = luminances.begin() + static_cast<std::ptrdiff_t>(luminances.size() * 98 / 100);
     std::nth_element(luminances.begin(), bright, luminances.end());
-    return std::log10(std::min(0.4 / mean, 3.0 / static_cast<double>(*bright)));
+    // Dusk is to look darker than day, though by far less than it is: the eye adapts, but not wholly.
+    const double dimming = std::clamp(std::pow(mean / 3000, 0.06), 0.4, 1.);
+    return std::log10(dimming * std::min(0.4 / mean, 2.0 / static_cast<double>(*bright)));
 }
 
 void writePng(const std::string& path, const Picture& picture, const Development& development)
