@@ -24,6 +24,7 @@ public:
 std::vector<std::unique_ptr<Subcommand>> makeSubcommands();
 
 std::unique_ptr<Subcommand> makeRender();
+std::unique_ptr<Subcommand> makeMeasure();
 std::unique_ptr<Subcommand> makeProbe();
 std::unique_ptr<Subcommand> makeInfo();
 

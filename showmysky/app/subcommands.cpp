@@ -8,6 +8,7 @@ std::vector<std::unique_ptr<Subcommand>> makeSubcommands()
     all.push_back(makeRender());
     all.push_back(makeProbe());
     all.push_back(makeInfo());
+    all.push_back(makeMeasure());
     return all;
 }
 

@@ -1,0 +1,95 @@
+// showmysky measure: how fast this machine draws a model, and what a picture costs.
+
+#include "base/error.hpp"
+#include "gl/context.hpp"
+#include "showmysky/sky.hpp"
+#include "subcommand.hpp"
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <ctime>
+#include <functional>
+
+namespace showmysky::app {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+double secondsOf(const std::function<void()>& action)
+{
+    const auto start = std::chrono::steady_clock::now();
+    action();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+class Measure : public Subcommand
+{
+public:
+    CLI::App* addTo(CLI::App& app) override
+    {
+        auto* measure = app.add_subcommand("measure", "Time loading and drawing, 866 x 617 pixels, equirectangular");
+        measure->add_option("MODEL", model_, "model directory")->required();
+        measure->add_option("--seconds", seconds_, "for each figure")->capture_default_str()->check(CLI::Range(0.1, 600.));
+        return measure;
+    }
+
+    int run() override
+    {
+        sky::gl::HeadlessOptions headless;
+        headless.version = {3, 3, false};
+        sky::gl::HeadlessContext context(headless);
+        const auto finish = [&] { context.api()->Finish(); };
+        std::printf("renderer                     %s\n", context.api().renderer().c_str());
+        Sky sky(model_, context.loader());
+        SceneSettings scene;
+        Camera camera{Projection::equirectangular, 2 * pi, 0, 0, 0};
+        const auto draw = [&] {
+            sky.setSettings(scene);
+            sky.draw(camera, 866, 617);
+            finish();
+        };
+        std::printf("load to the first picture    %.3f s\n", secondsOf([&] {
+                        sky.loadAll();
+                        draw();
+                    }));
+        int frame = 0;
+        const auto framesPerSecond = [&](const char* what, const std::function<void()>& change) {
+            int frames = 0;
+            double spent = 0;
+            const std::clock_t before = std::clock();
+            while (spent < seconds_) {
+                spent += secondsOf([&] {
+                    change();
+                    draw();
+                });
+                ++frames;
+                ++frame;
+            }
+            const double processor = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
+            std::printf("%-28s %.1f frames/s, %.0f ms of processor time each\n", what, frames / spent, 1e3 * processor / frames);
+        };
+        framesPerSecond("camera turning", [&] { camera.yaw = 0.001 * frame; });
+        framesPerSecond("Sun moving", [&] { scene.sun.zenithAngle = 1 + 0.0005 * frame; });
+        framesPerSecond("altitude moving", [&] { scene.altitude = 10. * frame; });
+        if (sky.hasSource(Source::textures)) {
+            scene.source = Source::textures;
+            scene.altitude = 0;
+            framesPerSecond("textures: Sun moving", [&] { scene.sun.zenithAngle = 1 + 0.0005 * frame; });
+            framesPerSecond("textures: altitude moving", [&] { scene.altitude = 10. * frame; });
+        }
+        std::printf("texture fetches per pixel    %d\n", sky.fetchesPerPixel());
+        std::printf("textures on the GPU          %.1f MB\n", static_cast<double>(sky.textureBytes()) / 1e6);
+        return 0;
+    }
+
+private:
+    std::string model_;
+    double seconds_ = 2;
+};
+
+} // namespace
+
+std::unique_ptr<Subcommand> makeMeasure() { return std::make_unique<Measure>(); }
+
+} // namespace showmysky::app
