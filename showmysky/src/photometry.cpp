@@ -218,18 +218,14 @@ void Photometer::Inside::transmittance(const physics::Optics& optics, double alt
     }
 }
 
-/// Downward irradiance by the sky per unit solar irradiance, peaks truncated. On the ground as the solver has it; above by a
-/// quadrature over the hemisphere. Single scattering with its phase function cut at the degree: the rest of the peak is
+/// Downward irradiance by the sky per unit solar irradiance, peaks truncated: a quadrature over the hemisphere. (The moments' own
+/// irradiance of the ground is of one order less, since reflection is an order too.) Single scattering with its phase function cut at the degree: the rest of the peak is
 /// forward, and the flux is right with it counted as unscattered.
 void Photometer::Inside::diffuse(const double altitude, const double muSun, Scratch& scratch, double* const result) const
 {
     std::fill(result, result + wavelengths(), 0.);
     if (altitude >= sky.profile.planet().topOfAtmosphere)
         return;
-    if (altitude == 0) {
-        sky.moments->interpolateGround(muSun, result);
-        return;
-    }
     // mu = x^2 puts nodes at the bright horizon; mu dmu = 2 x^3 dx.
     const auto zenith = physics::gaussLegendre(12, 0, 1);
     const int azimuths = std::max(8, sky.optics.degree + 2);

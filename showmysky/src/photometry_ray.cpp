@@ -15,7 +15,8 @@ struct CellLoop {
     const float* columns;
     const int* scatterer; ///< indices of species
     const Block *extinction, *scattering;
-    Block *seen, *transmittance;
+    const float* centres; ///< [cells][species], of the density: 0..1 of the cell
+    Block *seen, *shift, *transmittance;
     float* share;
 };
 
@@ -35,8 +36,11 @@ void foldCells(const CellLoop& loop)
             // (1 - e^-tau) / tau; for small tau by its series, whose next term, tau^6 / 5040, is below 5e-8.
             const Lanes thin =
                 1 - tau * (0.5f - tau * (1.f / 6 - tau * (1.f / 24 - tau * (1.f / 120 - tau * (1.f / 720)))));
-            const Lanes thick = (1 - exponential(-tau)) / (tau < 0.25f ? all(1) : tau);
-            const Lanes mean = tau < 0.25f ? thin : thick;
+            const Lanes inverse = 1 / (tau < 0.25f ? all(1) : tau), left = exponential(-tau);
+            const Lanes mean = tau < 0.25f ? thin : (1 - left) * inverse;
+            // Attenuation moves the light's centre towards the eye by 1 / tau - 1 / (e^tau - 1) - 1/2 of the cell.
+            const Lanes square = tau * tau, near = -tau * (1.f / 12 - square * (1.f / 720 - square * (1.f / 30240)));
+            loop.shift[c * loop.blocks + b].v = tau < 1.f ? near : inverse - left / (1 - left) - 0.5f;
             const Lanes seen = transmittance * mean;
             transmittance -= transmittance * (tau * mean);
             loop.seen[c * loop.blocks + b].v = seen;
@@ -54,7 +58,7 @@ void foldCells(const CellLoop& loop)
 /// Where the cells stand between the nodes.
 struct Places {
     const int* node;    ///< [cells], never decreasing
-    const float* share; ///< [cells], 0..1, of the next node
+    const float *from, *length; ///< [cells], begin and length of the cell in gaps between the nodes
 };
 
 /// Shares out the cells among the nodes: hat functions between neighbours, as physics::RayTracer::trace.
@@ -67,13 +71,18 @@ void foldWeights(const CellLoop& loop, const Places& places, int nodes, Block* w
         for (int b = 0; b < loop.blocks; ++b) {
             const Lanes sigma = loop.scattering[i * loop.blocks + b].v;
             const float* column = loop.columns + loop.scatterer[i];
+            const float* centre = loop.centres + loop.scatterer[i];
             for (int c = 0; c < loop.cells;) {
                 const int node = places.node[c];
                 Lanes whole = all(0), far = all(0);
                 for (; c < loop.cells && places.node[c] == node; ++c) {
                     const Lanes light = column[c * loop.species] * loop.seen[c * loop.blocks + b].v;
+                    Lanes x = centre[c * loop.species] + loop.shift[c * loop.blocks + b].v;
+                    x = x < 0.f ? all(0) : (x > 1.f ? all(1) : x);
+                    x = places.from[c] + places.length[c] * x;
+                    x = x < 0.f ? all(0) : (x > 1.f ? all(1) : x);
                     whole += light;
-                    far += places.share[c] * light;
+                    far += x * light;
                 }
                 Block* near = weights + node * stride + i * loop.blocks + b;
                 near->v += (whole - far) * sigma;
@@ -201,11 +210,15 @@ void RayFolder::findColumns(FastRay& ray) const
     }
     foldDensities(static_cast<int>(steps), ray.arguments.data(), ray.logarithmic.data(), ray.densities.data());
     ray.columns.resize(ray.cells * species_);
+    ray.centres.resize(ray.cells * species_);
     const float* density = floats(ray.densities);
     for (int c = 0; c < ray.cells; ++c, density += 2 * species_) {
         const float half = static_cast<float>(0.5 * (ray.bounds[c + 1] - ray.bounds[c]));
-        for (int s = 0; s < species_; ++s)
-            ray.columns[c * species_ + s] = half * (density[s] + density[species_ + s]);
+        for (int s = 0; s < species_; ++s) {
+            const float both = density[s] + density[species_ + s];
+            ray.columns[c * species_ + s] = half * both;
+            ray.centres[c * species_ + s] = 0.5f + (both > 0 ? 0.28867513f * (density[species_ + s] - density[s]) / both : 0.f);
+        }
     }
 }
 
@@ -231,14 +244,16 @@ void RayFolder::placeNodes(FastRay& ray, const int nodes, NodeSet& set) const
     }
     set.weights.resize(static_cast<std::size_t>(nodes) * scatterers_.size() * blocks_, Block{all(0)});
     ray.place.resize(ray.cells);
-    ray.placeShare.resize(ray.cells);
+    ray.placeFrom.resize(ray.cells);
+    ray.placeLength.resize(ray.cells);
     for (int c = 0, k = 0; c < ray.cells; ++c) {
         const double middle = 0.5 * (ray.bounds[c] + ray.bounds[c + 1]);
         while (k + 2 < nodes && ray.position[k + 1] < middle)
             ++k;
         const double gap = ray.position[k + 1] - ray.position[k];
         ray.place[c] = k;
-        ray.placeShare[c] = gap > 0 ? static_cast<float>(std::clamp((middle - ray.position[k]) / gap, 0., 1.)) : 0.f;
+        ray.placeFrom[c] = gap > 0 ? static_cast<float>((ray.bounds[c] - ray.position[k]) / gap) : 0.f;
+        ray.placeLength[c] = gap > 0 ? static_cast<float>((ray.bounds[c + 1] - ray.bounds[c]) / gap) : 0.f;
     }
 }
 
@@ -252,11 +267,13 @@ void RayFolder::trace(const double altitude, const double mu, FastRay& ray) cons
     ray.hitsGround = physics::hitsGround(p, altitude, mu);
     walk(ray);
     findColumns(ray);
+    ray.shift.resize(static_cast<std::size_t>(ray.cells) * blocks_, Block{all(0)});
     ray.seen.resize(static_cast<std::size_t>(ray.cells) * blocks_, Block{all(0)});
     ray.transmittance.resize(blocks_, Block{all(0)});
     ray.share.resize(ray.cells);
     const CellLoop loop{ray.cells, species_, scatterers(), blocks_, ray.columns.data(), scatterers_.data(),
-                        extinctions_.data(), scatterings_.data(), ray.seen.data(), ray.transmittance.data(), ray.share.data()};
+                        extinctions_.data(), scatterings_.data(), ray.centres.data(), ray.seen.data(), ray.shift.data(), ray.transmittance.data(),
+                        ray.share.data()};
     foldCells(loop);
 
     double total = 0, turned = 0;
@@ -277,7 +294,7 @@ void RayFolder::trace(const double altitude, const double mu, FastRay& ray) cons
     }
     for (const auto& [nodes, set] : {std::pair{effort_.singleNodes, &ray.single}, std::pair{effort_.multipleNodes, &ray.multiple}}) {
         placeNodes(ray, nodes, *set);
-        foldWeights(loop, {ray.place.data(), ray.placeShare.data()}, nodes, set->weights.data());
+        foldWeights(loop, {ray.place.data(), ray.placeFrom.data(), ray.placeLength.data()}, nodes, set->weights.data());
     }
     ray.ground = ray.single.nodes.back();
     ++ray.version;

@@ -12,9 +12,9 @@ namespace showmysky {
 struct Effort {
     int singleNodes = 72;   ///< along a ray, for the direct light
     int multipleNodes = 20; ///< for the field
-    double cellSteepness = 0.6; ///< largest change of ln density over a cell; attenuation inside cells is exact
-    double cellLength = 0.1;    ///< largest share of the ray
-    double cellDepth = 0.25;    ///< largest optical depth
+    double cellSteepness = 1;   ///< largest change of ln density over a cell; attenuation inside cells is exact
+    double cellLength = 0.12;   ///< largest share of the ray
+    double cellDepth = 0.5;     ///< largest optical depth
     double profileTolerance = 1e-3; ///< relative, of densities
 };
 
@@ -41,11 +41,12 @@ struct FastRay {
     std::vector<int> intervals;          ///< [cells], of the profile
     lanes::Blocks arguments, logarithmic, densities; ///< [cells][2 points][species] in a row
     std::vector<float> columns;          ///< [cells][species], in units of RayFolder's scales
+    std::vector<float> centres;          ///< [cells][species], of the density, 0..1 of the cell
     std::vector<float> share;            ///< [cells], light scattered there
-    lanes::Blocks seen;                  ///< [cells][block], mean transmittance
+    lanes::Blocks seen, shift;           ///< [cells][block], mean transmittance; how attenuation moves the centre of light
     std::vector<double> climb, measure, position;
     std::vector<int> place;              ///< [cells], node before the cell
-    std::vector<float> placeShare;       ///< [cells], share of the node after it
+    std::vector<float> placeFrom, placeLength; ///< [cells], in gaps between nodes
 };
 
 /// Traces rays through one medium. Const functions are thread-safe.
