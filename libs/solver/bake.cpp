@@ -4,11 +4,15 @@
 #include "base/parallel.hpp"
 #include "physics/colour.hpp"
 #include "physics/table_axes.hpp"
+#include <algorithm>
 #include <cmath>
 
 namespace sky::solver {
 
 namespace {
+
+/// What a run needs whatever the tables' sizes: driver, medium, moments, one dispatch's sources.
+constexpr std::size_t fixedMemory = std::size_t(130) << 20;
 
 /// XYZ and scotopic luminance of unit radiance per unit solar irradiance: colour matching times the solar spectrum.
 std::vector<std::array<double, 4>> luminanceOf(const physics::Medium& medium)
@@ -50,14 +54,39 @@ model::TableSpec scatteringSpec(const BakeJob& job, const std::string& name, boo
     return spec;
 }
 
-std::vector<RayStart> viewsFrom(const BakeJob& job, double altitude)
+/// Views first .. first + count - 1 of those from an altitude.
+std::vector<RayStart> viewsFrom(const BakeJob& job, double altitude, int first, int count)
 {
     const auto mu = physics::viewMuNodes(job.scene.profile.planet(), altitude, job.description.scatteringSize.viewZenithAngle);
     std::vector<RayStart> starts;
-    for (std::size_t k = 0; k < mu.size(); ++k)
-        starts.push_back({altitude, mu[k], k < mu.size() / 2});
+    for (int k = first; k < first + count; ++k)
+        starts.push_back({altitude, mu[k], k < static_cast<int>(mu.size()) / 2});
     return starts;
 }
+
+/// One layer of a table, gathered in as many groups of views as memory asks for.
+struct Layer {
+    int views, suns, azimuths, viewsAtOnce;
+    Layer(const BakeJob& job, std::size_t bytesPerTexel)
+        : views(job.description.scatteringSize.viewZenithAngle), suns(job.description.scatteringSize.sunZenithAngle),
+          azimuths(job.description.scatteringSize.dotViewSun), viewsAtOnce(views)
+    {
+        // A quarter of what the fixed needs leave: results exist on the GPU, in its copy, and in the layer they go to.
+        if (const std::size_t most = job.options.maxMemoryBytes)
+            viewsAtOnce = static_cast<int>(std::clamp<std::size_t>(
+                (most - std::min(most, fixedMemory)) / 4 / (std::size_t(suns) * azimuths * bytesPerTexel), 1, views));
+    }
+    std::size_t texels(int viewCount) const { return std::size_t(viewCount) * suns * azimuths; }
+    Strides strides(int viewCount) const { return {azimuths, viewCount * azimuths, 1}; }
+    /// Puts a group, [sun][view of the group][azimuth][floats], in its place.
+    void place(const float* group, int first, int count, std::size_t floats, std::vector<float>& layer) const
+    {
+        layer.resize(texels(views) * floats);
+        const std::size_t run = std::size_t(count) * azimuths * floats;
+        for (int sun = 0; sun < suns; ++sun)
+            std::copy_n(group + sun * run, run, &layer[(std::size_t(sun) * views + first) * azimuths * floats]);
+    }
+};
 
 SunSamples samplesOf(const gl::Api& api, const BakeJob& job, double altitude)
 {
@@ -130,28 +159,31 @@ void bakeSingleScattering(const gl::Api& api, const BakeJob& job, model::ModelWr
         asSpectra.emplace(api, job.scene, DirectGather::Purpose::table, std::vector<std::array<double, 4>>{});
 
     const auto altitudes = job.altitudes();
-    const auto& size = job.description.scatteringSize;
-    const std::size_t texels = std::size_t(size.viewZenithAngle) * size.sunZenithAngle * size.dotViewSun;
-    const Strides strides{size.dotViewSun, size.viewZenithAngle * size.dotViewSun, 1};
-    gl::Buffer results(api, "single scattering",
-                       texels * scatterers * 4 * sizeof(float) * (anySpectral ? job.scene.sets() : 1));
+    const std::size_t vec4s = anySpectral ? job.scene.sets() : 1;
+    const Layer shape(job, scatterers * vec4s * 16);
+    gl::Buffer results(api, "single scattering", shape.texels(shape.viewsAtOnce) * scatterers * vec4s * 16);
+    std::vector<std::vector<float>> layers(scatterers);
     for (std::size_t layer = 0; layer < altitudes.size(); ++layer) {
         const auto fraction = [&] { breath(double(layer) / double(altitudes.size())); };
         const SunSamples samples = samplesOf(api, job, altitudes[layer]);
-        const DirectRays rays(api, job.scene, viewsFrom(job, altitudes[layer]), job.settings.directNodes, false);
-        const auto gather = [&](DirectGather& with, bool asLuminanceToo) {
-            with.gather(rays, samples, strides, withPhase, results, fraction);
-            const auto values = results.download();
-            const std::size_t texel = asLuminanceToo ? 4 : std::size_t(job.scene.sets()) * 4;
-            for (int i = 0; i < scatterers; ++i)
-                if (luminance[i] == asLuminanceToo)
-                    writeLayer(job, tables[i], static_cast<int>(layer), asLuminanceToo, &values[i * texels * texel], size.sunZenithAngle,
-                               texels);
-        };
-        if (asLuminance)
-            gather(*asLuminance, true);
-        if (asSpectra)
-            gather(*asSpectra, false);
+        for (int first = 0; first < shape.views; first += shape.viewsAtOnce) {
+            const int count = std::min(shape.viewsAtOnce, shape.views - first);
+            const DirectRays rays(api, job.scene, viewsFrom(job, altitudes[layer], first, count), job.settings.directNodes, false);
+            const auto gather = [&](DirectGather& with, bool asLuminanceToo) {
+                with.gather(rays, samples, shape.strides(count), withPhase, results, fraction);
+                const auto values = results.download();
+                const std::size_t floats = asLuminanceToo ? 4 : std::size_t(job.scene.sets()) * 4;
+                for (int i = 0; i < scatterers; ++i)
+                    if (luminance[i] == asLuminanceToo)
+                        shape.place(&values[i * shape.texels(count) * floats], first, count, floats, layers[i]);
+            };
+            if (asLuminance)
+                gather(*asLuminance, true);
+            if (asSpectra)
+                gather(*asSpectra, false);
+        }
+        for (int i = 0; i < scatterers; ++i)
+            writeLayer(job, tables[i], static_cast<int>(layer), luminance[i], layers[i].data(), shape.suns, shape.texels(shape.views));
     }
     breath(1);
 }
@@ -165,16 +197,20 @@ void bakeMultipleScattering(const gl::Api& api, const BakeJob& job, const physic
                            luminance ? luminanceOf(job.scene.medium) : std::vector<std::array<double, 4>>{});
     const FineField fine(field, job.settings.refinement);
     const auto altitudes = job.altitudes();
-    const auto& size = job.description.scatteringSize;
-    const std::size_t texels = std::size_t(size.viewZenithAngle) * size.sunZenithAngle * size.dotViewSun;
-    const Strides strides{size.dotViewSun, size.viewZenithAngle * size.dotViewSun, 1};
-    gl::Buffer results(api, "multiple scattering", texels * 4 * sizeof(float) * (luminance ? 1 : job.scene.sets()));
+    const std::size_t floats = luminance ? 4 : std::size_t(job.scene.sets()) * 4;
+    const Layer shape(job, floats * sizeof(float));
+    gl::Buffer results(api, "multiple scattering", shape.texels(shape.viewsAtOnce) * floats * sizeof(float));
+    std::vector<float> values;
     for (std::size_t layer = 0; layer < altitudes.size(); ++layer) {
         const SunSamples samples = samplesOf(api, job, altitudes[layer]);
-        const ScatteredRays rays(api, job.scene, field.grid, viewsFrom(job, altitudes[layer]), job.settings.nodes);
-        gather.gather(rays, fine, samples, strides, results,
-                      [&] { breath(double(layer) / double(altitudes.size())); });
-        writeLayer(job, table, static_cast<int>(layer), luminance, results.download().data(), size.sunZenithAngle, texels);
+        for (int first = 0; first < shape.views; first += shape.viewsAtOnce) {
+            const int count = std::min(shape.viewsAtOnce, shape.views - first);
+            const ScatteredRays rays(api, job.scene, field.grid, viewsFrom(job, altitudes[layer], first, count), job.settings.nodes);
+            gather.gather(rays, fine, samples, shape.strides(count), results,
+                          [&] { breath(double(layer) / double(altitudes.size())); });
+            shape.place(results.download().data(), first, count, floats, values);
+        }
+        writeLayer(job, table, static_cast<int>(layer), luminance, values.data(), shape.suns, shape.texels(shape.views));
     }
     breath(1);
 }
