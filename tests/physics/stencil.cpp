@@ -1,0 +1,104 @@
+// What an interpolation must keep: constants, straight lines, parabolas inside, symmetry at mirrors, positivity in
+// logarithms.
+#include "physics/stencil.hpp"
+#include <catch2/catch.hpp>
+#include <functional>
+
+using namespace sky::physics;
+
+namespace
+{
+
+double apply(const Stencil& s, const std::function<double(int)>& value)
+{
+    double sum = 0;
+    for (int i = 0; i < 4; ++i)
+        sum += s.weight[i] * value(s.index[i]);
+    return sum;
+}
+
+std::array<double, 4> gathered(const Stencil& s, const std::function<double(int)>& value)
+{
+    return {value(s.index[0]), value(s.index[1]), value(s.index[2]), value(s.index[3])};
+}
+
+} // namespace
+
+TEST_CASE("stencil: weights sum to one and straight lines stay straight, at the ends too")
+{
+    for (const int n : {2, 3, 4, 9})
+        for (double x = 0; x <= n - 1; x += 0.0625) {
+            const Stencil s = uniformStencil(x, n);
+            INFO("n " << n << " position " << x);
+            for (const int i : s.index)
+                CHECK((i >= 0 && i < n));
+            CHECK(apply(s, [](int) { return 1.; }) == Approx(1).margin(1e-14));
+            CHECK(apply(s, [](int i) { return 3. * i - 5; }) == Approx(3 * x - 5).margin(1e-13));
+            if (x >= 1 && x <= n - 2) // Catmull-Rom: inside, parabolas too
+                CHECK(apply(s, [](int i) { return double(i) * i; }) == Approx(x * x).margin(1e-12));
+        }
+}
+
+TEST_CASE("stencil: at a node it is the node's value, beyond the ends the end's")
+{
+    const auto value = [](int i) { return std::sin(3. * i) + 2; };
+    for (const int n : {2, 5}) {
+        for (int k = 0; k < n; ++k)
+            CHECK(apply(uniformStencil(k, n), value) == Approx(value(k)).margin(1e-14));
+        CHECK(apply(uniformStencil(-0.7, n), value) == Approx(value(0)).margin(1e-14));
+        CHECK(apply(uniformStencil(n + 5., n), value) == Approx(value(n - 1)).margin(1e-14));
+    }
+}
+
+TEST_CASE("stencil: slopes are continuous across nodes")
+{
+    const auto value = [](int i) { return std::sin(1.3 * i) + 0.1 * i; };
+    const double d = 1e-6;
+    for (int k = 1; k < 7; ++k) {
+        const double before = apply(uniformStencil(k, 8), value) - apply(uniformStencil(k - d, 8), value);
+        const double after = apply(uniformStencil(k + d, 8), value) - apply(uniformStencil(k, 8), value);
+        CHECK(before / d == Approx(after / d).margin(1e-4)); // second derivative times d, and roundings over d
+    }
+}
+
+TEST_CASE("stencil: mirrored ends are flat, and cosines of azimuth keep their symmetry")
+{
+    for (const int n : {2, 3, 8}) {
+        const auto value = [n](int i) { return std::cos(3.14159265358979323846 * i / (n - 1)) + 2; };
+        for (double x = 0; x <= n - 1; x += 0.125) {
+            const Stencil s = mirroredStencil(x, n), mirrored = mirroredStencil(n - 1 - x, n);
+            INFO("n " << n << " position " << x);
+            for (const int i : s.index)
+                CHECK((i >= 0 && i < n));
+            CHECK(apply(s, [](int) { return 1.; }) == Approx(1).margin(1e-14));
+            CHECK(apply(s, value) - 2 == Approx(2 - apply(mirrored, value)).margin(1e-13)); // cos(pi - phi) = -cos phi
+        }
+        const double slope = apply(mirroredStencil(1e-6, n), value) - value(0);
+        CHECK(std::abs(slope) < 1e-10); // quadratic in the step, not linear
+    }
+}
+
+TEST_CASE("stencil: exponentials are exact in logarithms, and stay positive where a curve through values would not")
+{
+    for (double x = 0; x <= 5; x += 0.1) {
+        const Stencil s = uniformStencil(x, 6);
+        CHECK(interpolateLog(s, gathered(s, [](int i) { return std::exp(-4. * i); })) ==
+              Approx(std::exp(-4 * x)).epsilon(1e-12));
+        CHECK(interpolateLog(s, gathered(s, [](int i) { return i < 3 ? 1. : 1e-12; })) > 0);
+    }
+}
+
+TEST_CASE("stencil: beside a zero it is the straight line between the middle two, never negative, never NaN")
+{
+    for (const double x : {0., 0.25, 1., 1.5, 1.999, 2., 2.5, 3., 3.75, 4.}) {
+        const Stencil s = uniformStencil(x, 5);
+        const auto value = [](int i) { return i < 2 ? 0. : double(i); };
+        const int k = s.index[1];
+        INFO("position " << x);
+        const double result = interpolateLog(s, gathered(s, value));
+        CHECK(std::isfinite(result));
+        if (x < 3) // some neighbour with weight is zero, or a node itself is meant
+            CHECK(result == Approx(value(k) + (x - k) * (value(k + 1) - value(k))).margin(1e-13));
+        CHECK(interpolateLog(s, {0, 0, 0, 0}) == 0);
+    }
+}
