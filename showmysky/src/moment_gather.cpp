@@ -95,6 +95,11 @@ MomentGather::MomentGather(const Atmosphere& atmosphere, const Phases& phases, c
     }
     if (!moments)
         return;
+    groundField_.assign(static_cast<std::size_t>(suns_ * 2 * stride_), 1.f);
+    for (int j = 0; j < suns_; ++j)
+        for (int w = 0; w < wavelengths; ++w)
+            groundField_[static_cast<std::size_t>(j * 2 * stride_ + w)] = static_cast<float>(
+                std::log2(std::max(moments->groundIrradiance[static_cast<std::size_t>(j * wavelengths + w)], physics::darkness)));
     const int harmonics = physics::harmonicCount(degree_);
     field_.assign(static_cast<std::size_t>(moments->grid.altitudeCount() * suns_ * harmonics * stride_), 0.f);
     for (int a = 0; a < moments->grid.altitudeCount(); ++a)
@@ -278,14 +283,32 @@ void MomentGather::addMultiple(Ray& ray, float muSun, float nu, float* radiance)
 void MomentGather::addGround(const Ray& ray, float muSun, float nu, float* radiance) const
 {
     const auto& node = ray.groundNode;
-    const double muSunThere = std::clamp(static_cast<double>(node.sunScale * muSun + node.nuScale * nu), -1., 1.);
-    const auto wavelengths = static_cast<std::size_t>(atmosphere_.wavelengths());
-    std::vector<double> direct(wavelengths), diffuse(wavelengths, 0.);
-    sun_.horizontalIrradiance(0, muSunThere, direct.data());
-    if (moments_)
-        moments_->interpolateGround(muSunThere, diffuse.data());
-    for (std::size_t w = 0; w < wavelengths; ++w)
-        radiance[w] += ray.groundFactors[w] * static_cast<float>(direct[w] + diffuse[w]);
+    const float muSunThere = clampedSine(node.sunScale * muSun + node.nuScale * nu);
+    const float elevation = std::asin(muSunThere);
+    std::vector<float> light(static_cast<std::size_t>(stride_));
+    sunlight(node, elevation, light.data());
+    // Mean cosine over the visible part of the disc: the centroid of a circular segment, as physics::SunTable has it.
+    float cosine = std::max(muSunThere, 0.f);
+    if (std::abs(elevation) < sunRadius_) {
+        const float x = elevation / sunRadius_;
+        const auto area = static_cast<float>(pi * physics::visibleDiscFraction(static_cast<double>(elevation), static_cast<double>(sunRadius_)));
+        cosine = std::max(0.f, elevation + (x < -0.99f ? 0.f : sunRadius_ * 2 / 3 * std::pow(1 - x * x, 1.5f) / area));
+    }
+    for (float& value : light)
+        value *= cosine;
+    if (moments_) {
+        const auto stencil = moments_->grid.sunStencil(moments_->grid.sunPosition(static_cast<double>(elevation)));
+        const float* suns[4];
+        float weights[4];
+        for (std::size_t j = 0; j < 4; ++j) {
+            suns[j] = &groundField_[static_cast<std::size_t>(stencil.index[j] * 2 * stride_)];
+            weights[j] = static_cast<float>(stencil.weight[j]);
+        }
+        const float one = 1;
+        addNode(suns, weights, &one, 0, stride_, light.data());
+    }
+    for (std::size_t w = 0; w < light.size(); ++w)
+        radiance[w] += ray.groundFactors[w] * light[w];
 }
 
 SkyView MomentGather::gather(double muSun, const LayersUsed& layers, const std::vector<Texel>& weights)

@@ -1,5 +1,6 @@
 #include "sky_view.hpp"
 
+#include "lanes.hpp"
 #include "physics/table_axes.hpp"
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,18 @@ namespace showmysky {
 namespace {
 
 enum class End { clamp, mirror };
+enum class Content { zero, positive, mixed };
+
+constexpr float dark = 1e-37f; ///< told from zero
+
+Content contentOf(const std::vector<Texel>& texels)
+{
+    std::size_t zeros = 0;
+    for (const Texel& texel : texels)
+        for (const float value : texel)
+            zeros += value > dark ? 0 : 1;
+    return zeros == 0 ? Content::positive : zeros == 4 * texels.size() ? Content::zero : Content::mixed;
+}
 
 /// Catmull-Rom between `b` and `c`.
 std::array<float, 4> cubicWeights(float t)
@@ -18,14 +31,14 @@ std::array<float, 4> cubicWeights(float t)
 
 float interpolate(float a, float b, float c, float d, float t, const std::array<float, 4>& w)
 {
-    constexpr float dark = 1e-37f;
     if (a > dark && b > dark && c > dark && d > dark)
         return std::exp(w[0] * std::log(a) + w[1] * std::log(b) + w[2] * std::log(c) + w[3] * std::log(d));
     return b + t * (c - b);
 }
 
-/// Interpolates `count` values, `stride` apart, to `newCount`.
-void resampleLine(const Texel* from, int count, std::size_t stride, Texel* to, int newCount, std::size_t newStride, End end)
+/// Interpolates `count` values (or their logarithms), `stride` apart, to `newCount`.
+void resampleLine(const Texel* from, int count, std::size_t stride, Texel* to, int newCount, std::size_t newStride, End end,
+                  bool logarithms)
 {
     const auto at = [&](int i) -> Texel {
         if (end == End::mirror)
@@ -37,7 +50,7 @@ void resampleLine(const Texel* from, int count, std::size_t stride, Texel* to, i
         const Texel& inner = from[static_cast<std::size_t>(i < 0 ? 1 : count - 2) * stride];
         Texel result;
         for (std::size_t k = 0; k < 4; ++k)
-            result[k] = inner[k] > 0 ? std::min(edge[k] / inner[k], 1e3f) * edge[k] : edge[k];
+            result[k] = logarithms ? 2 * edge[k] - inner[k] : inner[k] > 0 ? std::min(edge[k] / inner[k], 1e3f) * edge[k] : edge[k];
         return result;
     };
     for (int i = 0; i < newCount; ++i) {
@@ -48,7 +61,8 @@ void resampleLine(const Texel* from, int count, std::size_t stride, Texel* to, i
         const Texel a = at(k - 1), b = at(k), c = at(k + 1), d = at(k + 2);
         Texel& out = to[static_cast<std::size_t>(i) * newStride];
         for (std::size_t x = 0; x < 4; ++x)
-            out[x] = interpolate(a[x], b[x], c[x], d[x], t, weights);
+            out[x] = logarithms ? weights[0] * a[x] + weights[1] * b[x] + weights[2] * c[x] + weights[3] * d[x]
+                                : interpolate(a[x], b[x], c[x], d[x], t, weights);
     }
 }
 
@@ -58,14 +72,33 @@ ViewTable resampled(const ViewTable& table, int halfViews, int azimuths)
 {
     if (table.empty() || (table.halfViews == halfViews && table.azimuths == azimuths))
         return table;
-    ViewTable wide(table.halfViews, azimuths), result(halfViews, azimuths);
-    for (int v = 0; v < 2 * table.halfViews; ++v)
-        resampleLine(&table.at(v, 0), table.azimuths, 1, &wide.at(v, 0), azimuths, 1, End::mirror);
+    ViewTable result(halfViews, azimuths);
     const auto stride = static_cast<std::size_t>(azimuths);
-    for (int half = 0; half < 2; ++half)
+    const auto ofHalf = static_cast<std::size_t>(table.halfViews * table.azimuths);
+    for (int half = 0; half < 2; ++half) {
+        const Texel* first = &table.at(half * table.halfViews, 0);
+        std::vector<Texel> from(first, first + ofHalf);
+        const Content content = contentOf(from);
+        if (content == Content::zero)
+            continue;
+        // Where nothing is zero one logarithm for each value is enough.
+        const bool logarithms = content == Content::positive;
+        if (logarithms)
+            for (Texel& texel : from)
+                for (float& value : texel)
+                    value = std::log2(value);
+        ViewTable wide(table.halfViews, azimuths);
+        for (int v = 0; v < table.halfViews; ++v)
+            resampleLine(&from[static_cast<std::size_t>(v * table.azimuths)], table.azimuths, 1, &wide.at(v, 0), azimuths, 1,
+                         End::mirror, logarithms);
         for (int a = 0; a < azimuths; ++a)
-            resampleLine(&wide.at(half * table.halfViews, a), table.halfViews, stride, &result.at(half * halfViews, a), halfViews,
-                         stride, End::clamp);
+            resampleLine(&wide.at(0, a), table.halfViews, stride, &result.at(half * halfViews, a), halfViews, stride, End::clamp,
+                         logarithms);
+        if (logarithms)
+            for (std::size_t i = 0; i < static_cast<std::size_t>(halfViews) * stride; ++i)
+                for (float& value : result.texels[static_cast<std::size_t>(half * halfViews) * stride + i])
+                    value = exp2Lane(value);
+    }
     return result;
 }
 
