@@ -37,10 +37,11 @@ Rgb developed(const Luminance& pixel, double factor, ToneCurve curve)
                                 static_cast<double>(pixel.z) * factor};
     Rgb colour = intoGamut(sky::physics::linearSrgb(xyz), xyz[1]);
     // As film does: a little more contrast, and thereby colour, about a middle tone; then light that saturates.
-    constexpr double middle = 0.3, contrast = 1.25;
+    // A trace of light leaks between the channels, so that what is far too bright, the Sun itself, ends white.
+    constexpr double middle = 0.3, contrast = 1.25, leak = 0.01;
     for (double& c : colour)
         if (curve == ToneCurve::exponential)
-            c = -std::expm1(-middle * std::pow(c / middle, contrast));
+            c = -std::expm1(-middle * std::pow((c + leak * (xyz[1] - c)) / middle, contrast));
         else if (curve == ToneCurve::reinhard)
             c /= 1 + xyz[1];
     return colour;
