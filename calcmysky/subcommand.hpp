@@ -27,5 +27,7 @@ public:
 std::vector<std::unique_ptr<Subcommand>> makeSubcommands();
 
 std::unique_ptr<Subcommand> makeDoctor();
+std::unique_ptr<Subcommand> makeReference();
+std::unique_ptr<Subcommand> makeVerify();
 
 } // namespace sky::cli

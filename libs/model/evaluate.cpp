@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 namespace sky::model {
 
@@ -27,13 +26,10 @@ bool onlySingle(const Model& model) { return model.manifest().scatteringOrders =
 class SkyFromMoments : public SkyOfModel
 {
 public:
-    explicit SkyFromMoments(const Model& model)
-        : medium_(readMedium(model)), profile_(medium_), optics_(readOptics(model, medium_)),
-          sun_(profile_, optics_, medium_.sunAngularRadius, 192, 256), sky_(medium_, profile_, optics_, sun_),
-          tracer_(profile_, optics_)
+    SkyFromMoments(const physics::Medium& medium, const physics::Optics& optics, std::optional<physics::Moments> moments)
+        : medium_(medium), profile_(medium_), optics_(optics), sun_(profile_, optics_, medium_.sunAngularRadius, 192, 256),
+          sky_(medium_, profile_, optics_, sun_), tracer_(profile_, optics_), moments_(std::move(moments))
     {
-        if (!onlySingle(model))
-            moments_ = readMoments(model);
     }
 
     SkyRadiance radiance(const SkyGeometry& g) override
@@ -128,10 +124,19 @@ SkySource usualSource(const Model& model)
     return model.hasTable("moments") || !model.hasTable("multiple-scattering") ? SkySource::Moments : SkySource::Textures;
 }
 
+std::unique_ptr<SkyOfModel> skyOfMoments(const physics::Medium& medium, const physics::Optics& optics,
+                                         std::optional<physics::Moments> moments)
+{
+    return std::make_unique<SkyFromMoments>(medium, optics, std::move(moments));
+}
+
 std::unique_ptr<SkyOfModel> openSky(const Model& model, const SkySource source)
 {
-    if (source == SkySource::Moments)
-        return std::make_unique<SkyFromMoments>(model);
+    if (source == SkySource::Moments) {
+        const physics::Medium medium = readMedium(model);
+        return skyOfMoments(medium, readOptics(model, medium),
+                            onlySingle(model) ? std::nullopt : std::optional(readMoments(model)));
+    }
     return std::make_unique<SkyFromTextures>(model);
 }
 

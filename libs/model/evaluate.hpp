@@ -3,7 +3,10 @@
 // apart, at any place and in any direction.
 
 #include "model/model.hpp"
+#include "physics/moments.hpp"
+#include "physics/optics.hpp"
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace sky::model {
@@ -27,7 +30,7 @@ enum class SkySource {
     Textures ///< both interpolated from the 4D tables
 };
 
-/// Keeps what it has read; not thread-safe. The model must outlive it.
+/// Keeps what it has read; not thread-safe. The model that it was opened from must outlive it.
 class SkyOfModel
 {
 public:
@@ -37,6 +40,10 @@ public:
 
 /// The moments where the model has them, else the textures.
 SkySource usualSource(const Model& model);
+
+/// The sky of moments that are in memory already; without them, single scattering alone.
+std::unique_ptr<SkyOfModel> skyOfMoments(const physics::Medium& medium, const physics::Optics& optics,
+                                         std::optional<physics::Moments> moments);
 
 /// Opens the sky of a model. A model of one scattering order needs no table of multiple scattering.
 ///   throws  ModelError where a table is missing; UsageError where textures hold luminance
