@@ -4,8 +4,8 @@
 #include "gl/context.hpp"
 #include "showmysky/sky.hpp"
 #include "subcommand.hpp"
-#include <CLI/CLI.hpp>
 #include <chrono>
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <ctime>
 #include <functional>
@@ -30,7 +30,9 @@ public:
     {
         auto* measure = app.add_subcommand("measure", "Time loading and drawing, 866 x 617 pixels, equirectangular");
         measure->add_option("MODEL", model_, "model directory")->required();
-        measure->add_option("--seconds", seconds_, "for each figure")->capture_default_str()->check(CLI::Range(0.1, 600.));
+        measure->add_option("--seconds", seconds_, "for each figure")
+            ->capture_default_str()
+            ->check(CLI::Range(0.1, 600.));
         return measure;
     }
 
@@ -67,7 +69,8 @@ public:
                 ++frame;
             }
             const double processor = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
-            std::printf("%-28s %.1f frames/s, %.0f ms of processor time each\n", what, frames / spent, 1e3 * processor / frames);
+            std::printf("%-28s %.1f frames/s, %.0f ms of processor time each\n", what, frames / spent,
+                        1e3 * processor / frames);
         };
         framesPerSecond("camera turning", [&] { camera.yaw = 0.001 * frame; });
         framesPerSecond("Sun moving", [&] { scene.sun.zenithAngle = 1 + 0.0005 * frame; });
@@ -90,6 +93,9 @@ private:
 
 } // namespace
 
-std::unique_ptr<Subcommand> makeMeasure() { return std::make_unique<Measure>(); }
+std::unique_ptr<Subcommand> makeMeasure()
+{
+    return std::make_unique<Measure>();
+}
 
 } // namespace showmysky::app

@@ -2,14 +2,14 @@
 
 #include "base/error.hpp"
 #include "physics/colour.hpp"
-#include <ImfChannelList.h>
-#include <ImfFrameBuffer.h>
-#include <ImfHeader.h>
-#include <ImfOutputFile.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfOutputFile.h>
 #include <memory>
 #include <png.h>
 
@@ -86,8 +86,10 @@ void writePng(const std::string& path, const Picture& picture, const Development
     bytes.reserve(picture.pixels.size() * 3);
     for (int y = 0; y < picture.height; ++y)
         for (int x = 0; x < picture.width; ++x) {
-            const auto& pixel = picture.pixels[static_cast<std::size_t>(picture.height - 1 - y) * static_cast<std::size_t>(picture.width) +
-                                               static_cast<std::size_t>(x)];
+            const auto& pixel =
+                picture
+                    .pixels[static_cast<std::size_t>(picture.height - 1 - y) * static_cast<std::size_t>(picture.width) +
+                            static_cast<std::size_t>(x)];
             for (const double c : developed(pixel, factor, development.curve)) {
                 const double level = 255 * sky::physics::encodeSrgb(std::clamp(c, 0., 1.));
                 bytes.push_back(static_cast<std::uint8_t>(std::min(255., std::floor(level + ditherThreshold(x, y)))));
@@ -111,7 +113,8 @@ void writeExr(const std::string& path, const Picture& picture)
     for (int y = 0; y < picture.height; ++y)
         for (std::size_t x = 0; x < width; ++x) {
             const auto& p = picture.pixels[static_cast<std::size_t>(picture.height - 1 - y) * width + x];
-            const auto rgb = sky::physics::linearSrgb({static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)});
+            const auto rgb = sky::physics::linearSrgb(
+                {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)});
             for (const double c : rgb)
                 values.push_back(static_cast<float>(c));
             values.insert(values.end(), {p.x, p.y, p.z, p.scotopic});
@@ -121,8 +124,8 @@ void writeExr(const std::string& path, const Picture& picture)
         Imf::FrameBuffer frame;
         for (std::size_t c = 0; c < channels; ++c) {
             header.channels().insert(names[c], Imf::Channel(Imf::FLOAT));
-            frame.insert(names[c], Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(values.data() + c), channels * sizeof(float),
-                                              channels * width * sizeof(float)));
+            frame.insert(names[c], Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(values.data() + c),
+                                              channels * sizeof(float), channels * width * sizeof(float)));
         }
         Imf::OutputFile file(path.c_str(), header);
         file.setFrameBuffer(frame);

@@ -26,7 +26,8 @@ struct Development {
     double exposure = -4;  ///< log10 of the factor from cd m^-2 to the curve's argument
 };
 
-/// Exposure that brings the mean of the logarithms of luminance to a middle tone, without burning the brightest parts out.
+/// Exposure that brings the mean of the logarithms of luminance to a middle tone, without burning the brightest parts
+/// out.
 double automaticExposure(const Picture& picture);
 
 /// 8-bit sRGB with ordered dither; colours outside sRGB lose saturation, not hue.   throws sky::FileError

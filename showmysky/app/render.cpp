@@ -106,7 +106,8 @@ private:
         int width = 0, height = 0;
         char rest = 0;
         if (std::sscanf(size_.c_str(), "%5dx%5d%c", &width, &height, &rest) != 2 || width < 1 || height < 1)
-            throw sky::UsageError("--size: `" + size_ + "` is not understood; expected WIDTHxHEIGHT, for instance 1280x720.");
+            throw sky::UsageError("--size: `" + size_ +
+                                  "` is not understood; expected WIDTHxHEIGHT, for instance 1280x720.");
         return {width, height};
     }
 
@@ -117,6 +118,9 @@ private:
 
 } // namespace
 
-std::unique_ptr<Subcommand> makeRender() { return std::make_unique<Render>(); }
+std::unique_ptr<Subcommand> makeRender()
+{
+    return std::make_unique<Render>();
+}
 
 } // namespace showmysky::app

@@ -35,13 +35,15 @@ void SceneOptions::addTo(CLI::App& app)
 {
     for (const auto& [name, value, help] : numbers)
         app.add_option(std::string("--") + name, this->*value, help)->capture_default_str()->group("Scene");
-    app.add_option("--exposure", development.exposure, "log10 of the factor on luminance in cd/m^2; automatic without it")
+    app.add_option("--exposure", development.exposure,
+                   "log10 of the factor on luminance in cd/m^2; automatic without it")
         ->each([this](const std::string&) { development.automatic = false; })
         ->group("Picture");
     app.add_option("--projection", projection, "perspective, equirectangular or fisheye")
-        ->transform(CLI::CheckedTransformer(std::map<std::string, Projection>{{"perspective", Projection::perspective},
-                                                                              {"equirectangular", Projection::equirectangular},
-                                                                              {"fisheye", Projection::fisheye}}))
+        ->transform(
+            CLI::CheckedTransformer(std::map<std::string, Projection>{{"perspective", Projection::perspective},
+                                                                      {"equirectangular", Projection::equirectangular},
+                                                                      {"fisheye", Projection::fisheye}}))
         ->group("Picture");
     app.add_option("--tone-mapping", development.curve, "exponential, reinhard or linear")
         ->transform(CLI::CheckedTransformer(std::map<std::string, ToneCurve>{
@@ -56,9 +58,12 @@ void SceneOptions::addTo(CLI::App& app)
         ->check(CLI::IsMember({"zero", "sun", "single", "multiple"}))
         ->group("Scene");
     app.add_option("--hide-scatterer", hiddenScatterers, "leave out a scatterer's single scattering")->group("Scene");
-    app.add_option("--solar-spectrum", solarSpectrum, "factors on the model's, one per wavelength")->delimiter(',')->group("Scene");
+    app.add_option("--solar-spectrum", solarSpectrum, "factors on the model's, one per wavelength")
+        ->delimiter(',')
+        ->group("Scene");
     app.add_flag("--eclipse", eclipse, "let the Moon hide the Sun")->group("Scene");
-    app.add_flag("--on-the-fly", onTheFly, "with textures: gather single scattering instead of looking it up")->group("Scene");
+    app.add_flag("--on-the-fly", onTheFly, "with textures: gather single scattering instead of looking it up")
+        ->group("Scene");
     app.add_flag("--mirror", mirror, "mirror the sky below the horizon instead of showing the ground")->group("Scene");
     app.add_flag("--unfiltered", unfiltered, "show the texels of the sky tables")->group("Scene");
 }

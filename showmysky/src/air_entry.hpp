@@ -10,8 +10,8 @@ namespace showmysky {
 
 /// A ray inside the air, and how the Sun's height along it follows from the Sun's height at the camera.
 struct AirEntry {
-    double altitude, mu;             ///< where the ray enters, or the camera itself
-    double outerScale, outerShift;   ///< cos(Sun's zenith angle) there = outerScale muSun + outerShift nu
+    double altitude, mu;           ///< where the ray enters, or the camera itself
+    double outerScale, outerShift; ///< cos(Sun's zenith angle) there = outerScale muSun + outerShift nu
 
     /// A node of the ray from the entry, seen from the camera.
     sky::physics::RayNodes::Node node(sky::physics::RayNodes::Node own) const

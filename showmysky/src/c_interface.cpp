@@ -79,14 +79,21 @@ Camera cameraOf(const showmysky_camera& camera)
 {
     if (camera.projection < SHOWMYSKY_EQUIRECTANGULAR || camera.projection > SHOWMYSKY_FISHEYE)
         throw Error(ErrorKind::settings, "There is no projection of number " + std::to_string(camera.projection) + ".");
-    return {static_cast<Projection>(camera.projection), camera.field_of_view, camera.yaw, camera.pitch, camera.direction_texture};
+    return {static_cast<Projection>(camera.projection), camera.field_of_view, camera.yaw, camera.pitch,
+            camera.direction_texture};
 }
 
 } // namespace
 
-int showmysky_abi_version(void) { return SHOWMYSKY_ABI_VERSION; }
+int showmysky_abi_version(void)
+{
+    return SHOWMYSKY_ABI_VERSION;
+}
 
-const char* showmysky_error(void) { return lastError.c_str(); }
+const char* showmysky_error(void)
+{
+    return lastError.c_str();
+}
 
 showmysky_sky* showmysky_open(const char* model_directory, showmysky_gl_loader loader, void* user, const char* function)
 {
@@ -96,12 +103,16 @@ showmysky_sky* showmysky_open(const char* model_directory, showmysky_gl_loader l
             throw Error(ErrorKind::settings, "A model directory and a loader of OpenGL functions are needed.");
         Options options;
         options.viewDirectionFunction = function ? function : "";
-        result = new showmysky_sky{Sky(model_directory, [=](const char* name) { return loader(name, user); }, options)};
+        result = new showmysky_sky{Sky(
+            model_directory, [=](const char* name) { return loader(name, user); }, options)};
     });
     return result;
 }
 
-void showmysky_close(showmysky_sky* sky) { delete sky; }
+void showmysky_close(showmysky_sky* sky)
+{
+    delete sky;
+}
 
 void showmysky_abandon_context(showmysky_sky* sky)
 {
@@ -144,8 +155,14 @@ int showmysky_draw(showmysky_sky* sky, const showmysky_camera* camera, int width
     return guarded([&] { sky->sky.draw(cameraOf(*camera), width, height, reduction); });
 }
 
-unsigned showmysky_luminance_texture(const showmysky_sky* sky) { return sky->sky.luminanceTexture(); }
-unsigned showmysky_program(const showmysky_sky* sky) { return sky->sky.program(); }
+unsigned showmysky_luminance_texture(const showmysky_sky* sky)
+{
+    return sky->sky.luminanceTexture();
+}
+unsigned showmysky_program(const showmysky_sky* sky)
+{
+    return sky->sky.program();
+}
 
 int showmysky_pixel_luminance(const showmysky_sky* sky, int x, int y, showmysky_luminance* result)
 {

@@ -1,8 +1,8 @@
 #pragma once
 // The moments source: light gathered along a few rays of every elevation, for any Sun.
 //
-// What depends on the altitude alone (nodes and weights of the rays; the moments that meet the ray's direction at each node, folded
-// to terms in cos(m phi)) is kept until the altitude changes. A new Sun then costs some milliseconds.
+// What depends on the altitude alone (nodes and weights of the rays; the moments that meet the ray's direction at each
+// node, folded to terms in cos(m phi)) is kept until the altitude changes. A new Sun then costs some milliseconds.
 
 #include "atmosphere.hpp"
 #include "phases.hpp"
@@ -39,22 +39,23 @@ public:
 private:
     struct Node {
         float sunScale, nuScale, mu;
-        float horizon;       // rad, at the node
-        float inverseRange;  // of the table of sunlight
+        float horizon;      // rad, at the node
+        float inverseRange; // of the table of sunlight
         int sunRow;
         float sunRowShare;
         sky::physics::Stencil level; // of the moments
     };
     struct Ray {
-        bool lit = false;   // meets any air
+        bool lit = false; // meets any air
         bool ground = false;
         std::vector<Node> single, multiple;
-        std::vector<float> singleWeights;     // [node][scatterer][stride]
-        std::vector<float> coefficients;      // [node][lm][stride]: sum over scatterers of weight lambda_l, times the harmonic factor
-        std::vector<float> folded;            // [node][sun][1 + term][stride]; valid where `isFolded`
-        std::vector<std::uint8_t> isFolded;   // [node][sun]
+        std::vector<float> singleWeights; // [node][scatterer][stride]
+        std::vector<float>
+            coefficients; // [node][lm][stride]: sum over scatterers of weight lambda_l, times the harmonic factor
+        std::vector<float> folded;          // [node][sun][1 + term][stride]; valid where `isFolded`
+        std::vector<std::uint8_t> isFolded; // [node][sun]
         Node groundNode{};
-        std::vector<float> groundFactors;     // [stride]: transmittance times albedo / pi
+        std::vector<float> groundFactors; // [stride]: transmittance times albedo / pi
     };
 
     void trace(int ray, sky::physics::RayTracer& tracer) const;
@@ -73,7 +74,8 @@ private:
     int stride_, scatterers_, degree_, suns_ = 0;
     std::vector<float> sunDepths_; // [altitude][elevation][stride]
     std::vector<float> field_;     // [altitude][sun][lm][stride]: log2 I_00, then ratios
-    std::vector<float> groundField_; // [sun][2][stride]: log2 of the diffuse irradiance of the ground, then 1: as of a node
+    std::vector<float>
+        groundField_; // [sun][2][stride]: log2 of the diffuse irradiance of the ground, then 1: as of a node
     double altitude_ = -1;
     std::vector<double> sines_;
     mutable std::vector<Ray> rays_;

@@ -23,13 +23,17 @@ gl::Program buildProgram(const gl::Api& api, int scatterers, const Options& opti
                                     {"SUN_COLOURS", std::to_string(sunColourCount)}};
     const bool host = !options.viewDirectionFunction.empty();
     const std::string builtIn = "render/projections.glsl";
-    const gl::Snippet projection{"viewDirection", host ? options.viewDirectionFunction : std::string(sky::shaders::source(builtIn)),
+    const gl::Snippet projection{"viewDirection",
+                                 host ? options.viewDirectionFunction : std::string(sky::shaders::source(builtIn)),
                                  host ? "viewDirectionFunction" : builtIn, 1, false};
     return gl::ProgramBuilder(api, sky::shaders::source)
         .graphics("sky", "render/triangle.vert", "render/sky.frag", defines, {projection});
 }
 
-gl::TextureFormat formatOf(bool half) { return half ? gl::TextureFormat::rgba16f : gl::TextureFormat::rgba32f; }
+gl::TextureFormat formatOf(bool half)
+{
+    return half ? gl::TextureFormat::rgba16f : gl::TextureFormat::rgba32f;
+}
 
 std::vector<float> flat(const std::vector<Texel>& texels)
 {
@@ -96,8 +100,8 @@ void Painter::setSky(const SkyView& view, const SceneGeometry& geometry)
     const auto inverseRange = [](double range) {
         return static_cast<float>(1 / std::asinh(range / sky::physics::horizonAngleScale));
     };
-    program_.set("inverseRanges",
-                 std::array<float, 2>{inverseRange(pi / 2 - geometry.horizon), inverseRange(pi / 2 + geometry.horizon)});
+    program_.set("inverseRanges", std::array<float, 2>{inverseRange(pi / 2 - geometry.horizon),
+                                                       inverseRange(pi / 2 + geometry.horizon)});
     program_.setVec4s("sunColours", geometry.sunColours);
     program_.set("sunRadius", static_cast<float>(geometry.sunRadius));
     program_.set("mirror", geometry.mirror ? 1 : 0);
@@ -159,10 +163,12 @@ std::array<double, 3> Painter::drawDirection(const Camera& camera, int x, int y)
     triangle_.drawFullScreenTriangle();
     const auto values = directionTarget_.readPixels(0);
     gl::checkErrors(api_, "asking for the direction of a pixel");
-    const double size = std::hypot(static_cast<double>(values[0]), static_cast<double>(values[1]), static_cast<double>(values[2]));
+    const double size =
+        std::hypot(static_cast<double>(values[0]), static_cast<double>(values[1]), static_cast<double>(values[2]));
     if (!(size > 0))
         return {};
-    return {static_cast<double>(values[0]) / size, static_cast<double>(values[1]) / size, static_cast<double>(values[2]) / size};
+    return {static_cast<double>(values[0]) / size, static_cast<double>(values[1]) / size,
+            static_cast<double>(values[2]) / size};
 }
 
 Texel Painter::readPixel(int x, int y) const
@@ -184,6 +190,9 @@ std::size_t Painter::textureBytes() const
     return bytesOf(phases_) + bytesOf(tables_) + bytesOf(direction_) + (luminance_ ? bytesOf(*luminance_) : 0);
 }
 
-int Painter::fetchesPerPixel() const { return 1 + scatterers_ + (scatterers_ + 3) / 4; }
+int Painter::fetchesPerPixel() const
+{
+    return 1 + scatterers_ + (scatterers_ + 3) / 4;
+}
 
 } // namespace showmysky

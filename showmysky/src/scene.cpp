@@ -20,16 +20,17 @@ constexpr int raysPerStep = 16;
 
 bool same(const Layers& a, const Layers& b)
 {
-    return a.zeroOrder == b.zeroOrder && a.singleScattering == b.singleScattering && a.multipleScattering == b.multipleScattering &&
-           a.lightPollution == b.lightPollution && a.hiddenScatterers == b.hiddenScatterers;
+    return a.zeroOrder == b.zeroOrder && a.singleScattering == b.singleScattering &&
+           a.multipleScattering == b.multipleScattering && a.lightPollution == b.lightPollution &&
+           a.hiddenScatterers == b.hiddenScatterers;
 }
 
 /// True if both ask for the same sky tables.
 bool sameTables(const SceneSettings& a, const SceneSettings& b)
 {
-    return a.altitude == b.altitude && a.sun.zenithAngle == b.sun.zenithAngle && a.sun.angularRadius == b.sun.angularRadius &&
-           same(a.layers, b.layers) && a.source == b.source && a.onTheFlySingleScattering == b.onTheFlySingleScattering &&
-           a.solarSpectrumFactors == b.solarSpectrumFactors;
+    return a.altitude == b.altitude && a.sun.zenithAngle == b.sun.zenithAngle &&
+           a.sun.angularRadius == b.sun.angularRadius && same(a.layers, b.layers) && a.source == b.source &&
+           a.onTheFlySingleScattering == b.onTheFlySingleScattering && a.solarSpectrumFactors == b.solarSpectrumFactors;
 }
 
 void require(bool fine, const std::string& message)
@@ -42,8 +43,8 @@ void require(bool fine, const std::string& message)
 
 const char* Scene::loadActivity(int step)
 {
-    static constexpr const char* names[loadSteps] = {"Reading the medium", "Reading the moments", "Tabulating phase functions",
-                                                     "Following sunlight"};
+    static constexpr const char* names[loadSteps] = {"Reading the medium", "Reading the moments",
+                                                     "Tabulating phase functions", "Following sunlight"};
     return names[step];
 }
 
@@ -63,20 +64,25 @@ void Scene::load(int step)
     }
 }
 
-double Scene::sunRadius() const { return settings_.sun.angularRadius.value_or(atmosphere_->medium.sunAngularRadius); }
+double Scene::sunRadius() const
+{
+    return settings_.sun.angularRadius.value_or(atmosphere_->medium.sunAngularRadius);
+}
 
 void Scene::followSunlight()
 {
     gather_.reset();
     tabulatedSunRadius_ = sunRadius();
-    sun_ = std::make_unique<physics::SunTable>(atmosphere_->profile, atmosphere_->optics, tabulatedSunRadius_, sunAltitudes,
-                                               sunElevations);
-    gather_ = std::make_unique<MomentGather>(*atmosphere_, *phases_, moments_ ? &*moments_ : nullptr, *sun_, tabulatedSunRadius_);
+    sun_ = std::make_unique<physics::SunTable>(atmosphere_->profile, atmosphere_->optics, tabulatedSunRadius_,
+                                               sunAltitudes, sunElevations);
+    gather_ = std::make_unique<MomentGather>(*atmosphere_, *phases_, moments_ ? &*moments_ : nullptr, *sun_,
+                                             tabulatedSunRadius_);
 }
 
 bool Scene::hasSource(Source source) const
 {
-    return source == Source::moments ? atmosphere_->model.hasTable("moments") : TextureLookup::missingTable(*atmosphere_).empty();
+    return source == Source::moments ? atmosphere_->model.hasTable("moments")
+                                     : TextureLookup::missingTable(*atmosphere_).empty();
 }
 
 std::string Scene::whyUnsupported(const SceneSettings& settings) const
@@ -94,7 +100,8 @@ std::string Scene::whyUnsupported(const SceneSettings& settings) const
         if (settings.altitude > atmosphere_->planet().topOfAtmosphere)
             return "The 4D textures end at the top of the atmosphere; above it, choose the moments as source.";
         if (!settings.solarSpectrumFactors.empty() && TextureLookup::anyLuminance(*atmosphere_))
-            return "The 4D textures of this model hold luminance, on which another solar spectrum can't act; compute it with "
+            return "The 4D textures of this model hold luminance, on which another solar spectrum can't act; compute "
+                   "it with "
                    "--radiance, or choose the moments as source.";
     }
     return {};
@@ -102,8 +109,10 @@ std::string Scene::whyUnsupported(const SceneSettings& settings) const
 
 void Scene::setSettings(const SceneSettings& settings)
 {
-    require(std::isfinite(settings.altitude) && settings.altitude >= 0, "The altitude must be a number of metres, at least 0.");
-    require(std::isfinite(settings.sun.azimuth) && std::isfinite(settings.moon.azimuth), "An azimuth must be a number.");
+    require(std::isfinite(settings.altitude) && settings.altitude >= 0,
+            "The altitude must be a number of metres, at least 0.");
+    require(std::isfinite(settings.sun.azimuth) && std::isfinite(settings.moon.azimuth),
+            "An azimuth must be a number.");
     require(settings.sun.zenithAngle >= 0 && settings.sun.zenithAngle <= pi + 1e-9,
             "The zenith angle of the Sun must be between 0 and 180 degrees.");
     require(settings.moon.zenithAngle >= 0 && settings.moon.zenithAngle <= pi + 1e-9,
@@ -112,7 +121,8 @@ void Scene::setSettings(const SceneSettings& settings)
             "The angular radius of the Sun must be above 0 and below 0.5 radians.");
     const auto& factors = settings.solarSpectrumFactors;
     require(factors.empty() || factors.size() == static_cast<std::size_t>(atmosphere_->wavelengths()),
-            "The solar spectrum needs one factor for each of the " + std::to_string(atmosphere_->wavelengths()) + " wavelengths.");
+            "The solar spectrum needs one factor for each of the " + std::to_string(atmosphere_->wavelengths()) +
+                " wavelengths.");
     require(std::all_of(factors.begin(), factors.end(), [](double f) { return std::isfinite(f) && f >= 0; }),
             "Factors on the solar spectrum must be numbers, at least 0.");
     for (const auto& name : settings.layers.hiddenScatterers) {
@@ -144,7 +154,8 @@ LayersUsed Scene::layersUsed() const
     const auto& hidden = settings_.layers.hiddenScatterers;
     for (const int s : atmosphere_->optics.scatterers) {
         const auto& name = atmosphere_->medium.species[static_cast<std::size_t>(s)].name;
-        used.single.push_back(settings_.layers.singleScattering && std::find(hidden.begin(), hidden.end(), name) == hidden.end());
+        used.single.push_back(settings_.layers.singleScattering &&
+                              std::find(hidden.begin(), hidden.end(), name) == hidden.end());
     }
     return used;
 }
@@ -184,7 +195,8 @@ Progress Scene::step()
         view_ = lookup_->slice(settings_.altitude, muSun, looked, weights);
         if (gathers) {
             SkyView own = gather_->gather(muSun, gathered, weights);
-            view_.whole = sum(resampled(view_.whole, drawnHalfViews, drawnAzimuths), resampled(own.whole, drawnHalfViews, drawnAzimuths));
+            view_.whole = sum(resampled(view_.whole, drawnHalfViews, drawnAzimuths),
+                              resampled(own.whole, drawnHalfViews, drawnAzimuths));
             for (std::size_t i = 0; i < own.scattered.size(); ++i)
                 if (!own.scattered[i].empty())
                     view_.scattered[i] = std::move(own.scattered[i]);
@@ -213,7 +225,8 @@ std::array<Texel, sunColourCount> Scene::sunColours() const
 {
     // Radiance of a uniform disc: irradiance over its solid angle, seen through the air without scaling of sharp peaks.
     const auto& medium = atmosphere_->medium;
-    const double radius = sunRadius(), solidAngle = 2 * pi * (1 - std::cos(radius)), centre = pi / 2 - settings_.sun.zenithAngle;
+    const double radius = sunRadius(), solidAngle = 2 * pi * (1 - std::cos(radius)),
+                 centre = pi / 2 - settings_.sun.zenithAngle;
     const double horizon = physics::horizonElevation(atmosphere_->planet(), settings_.altitude);
     const auto weights = atmosphere_->luminanceWeights(settings_.solarSpectrumFactors);
     physics::RayTracer tracer(atmosphere_->profile, atmosphere_->optics, 2);
@@ -230,7 +243,8 @@ std::array<Texel, sunColourCount> Scene::sunColours() const
             for (std::size_t s = 0; s < columns.size(); ++s)
                 depth += columns[s] * medium.species[s].extinctionCrossSection[w];
             for (std::size_t c = 0; c < 4; ++c)
-                result[static_cast<std::size_t>(k)][c] += weights[w][c] * static_cast<float>(std::exp(-depth) / solidAngle);
+                result[static_cast<std::size_t>(k)][c] +=
+                    weights[w][c] * static_cast<float>(std::exp(-depth) / solidAngle);
         }
     }
     return result;
@@ -259,7 +273,8 @@ std::vector<double> Scene::spectralRadiance(const std::array<double, 3>& directi
         return result;
     const auto sunDirection = directionOf(settings_.sun.azimuth, settings_.sun.zenithAngle);
     const double muSun = sunDirection[2];
-    const double nu = std::clamp(view[0] * sunDirection[0] + view[1] * sunDirection[1] + view[2] * sunDirection[2], -1., 1.);
+    const double nu =
+        std::clamp(view[0] * sunDirection[0] + view[1] * sunDirection[1] + view[2] * sunDirection[2], -1., 1.);
     const LayersUsed layers = layersUsed();
     physics::RayTracer tracer(atmosphere_->profile, optics);
     const physics::SkyEvaluator evaluator(medium, atmosphere_->profile, optics, *sun_);

@@ -2,9 +2,9 @@
 // All that is computed without OpenGL: a model, settings, and the sky tables and spectra that follow from both.
 
 #include "moment_gather.hpp"
+#include "painter.hpp"
 #include "showmysky/sky.hpp"
 #include "texture_lookup.hpp"
-#include "painter.hpp"
 #include <optional>
 
 namespace showmysky {

@@ -23,10 +23,10 @@ struct Drawn {
 
     bool operator==(const Drawn& other) const
     {
-        return version == other.version && width == other.width && height == other.height && reduction == other.reduction &&
-               camera.projection == other.camera.projection && camera.fieldOfView == other.camera.fieldOfView &&
-               camera.yaw == other.camera.yaw && camera.pitch == other.camera.pitch &&
-               camera.directionTexture == other.camera.directionTexture;
+        return version == other.version && width == other.width && height == other.height &&
+               reduction == other.reduction && camera.projection == other.camera.projection &&
+               camera.fieldOfView == other.camera.fieldOfView && camera.yaw == other.camera.yaw &&
+               camera.pitch == other.camera.pitch && camera.directionTexture == other.camera.directionTexture;
     }
 };
 
@@ -77,7 +77,8 @@ struct Sky::Inside {
         }
         const auto& size = painter->luminance().size();
         const double scale = double(painter->pictureWidth()) / size.width;
-        return builtInDirection(drawn.camera, painter->pictureWidth(), painter->pictureHeight(), (x + 0.5) * scale, (y + 0.5) * scale);
+        return builtInDirection(drawn.camera, painter->pictureWidth(), painter->pictureHeight(), (x + 0.5) * scale,
+                                (y + 0.5) * scale);
     }
 
     Options options;
@@ -128,10 +129,14 @@ Progress Sky::loadStep()
 
 void Sky::loadAll()
 {
-    while (!loadStep().done) {}
+    while (!loadStep().done) {
+    }
 }
 
-bool Sky::loaded() const { return inside_->loaded; }
+bool Sky::loaded() const
+{
+    return inside_->loaded;
+}
 
 const std::vector<double>& Sky::wavelengths() const
 {
@@ -193,7 +198,10 @@ void Sky::setSettings(const SceneSettings& settings)
     });
 }
 
-const SceneSettings& Sky::settings() const { return inside_->scene.settings(); }
+const SceneSettings& Sky::settings() const
+{
+    return inside_->scene.settings();
+}
 
 Progress Sky::prepareStep()
 {
@@ -223,7 +231,8 @@ bool Sky::draw(const Camera& camera, int width, int height, int reduction)
                                                  ", the reduction at least 1.");
         if (camera.directionTexture == 0)
             projectionScale(camera, width, height);
-        while (!in.scene.step().done) {}
+        while (!in.scene.step().done) {
+        }
         const Drawn wanted{in.scene.version(), width, height, reduction, camera};
         // What a host's function or texture returns may have changed without our knowing.
         const bool known = in.options.viewDirectionFunction.empty() && camera.directionTexture == 0;
@@ -243,8 +252,14 @@ unsigned Sky::luminanceTexture() const
     return inside_->painter && inside_->painter->hasPicture() ? inside_->painter->luminance().name() : 0;
 }
 
-int Sky::width() const { return luminanceTexture() ? inside_->painter->luminance().size().width : 0; }
-int Sky::height() const { return luminanceTexture() ? inside_->painter->luminance().size().height : 0; }
+int Sky::width() const
+{
+    return luminanceTexture() ? inside_->painter->luminance().size().width : 0;
+}
+int Sky::height() const
+{
+    return luminanceTexture() ? inside_->painter->luminance().size().height : 0;
+}
 
 std::vector<Luminance> Sky::readLuminance() const
 {
@@ -289,10 +304,22 @@ std::vector<double> Sky::spectralRadiance(const std::array<double, 3>& direction
     });
 }
 
-unsigned Sky::program() const { return inside_->painter ? inside_->painter->program() : 0; }
-std::size_t Sky::textureBytes() const { return inside_->painter ? inside_->painter->textureBytes() : 0; }
-int Sky::fetchesPerPixel() const { return inside_->painter ? inside_->painter->fetchesPerPixel() : 0; }
+unsigned Sky::program() const
+{
+    return inside_->painter ? inside_->painter->program() : 0;
+}
+std::size_t Sky::textureBytes() const
+{
+    return inside_->painter ? inside_->painter->textureBytes() : 0;
+}
+int Sky::fetchesPerPixel() const
+{
+    return inside_->painter ? inside_->painter->fetchesPerPixel() : 0;
+}
 
-void Sky::abandonContext() { inside_->context.abandon(); }
+void Sky::abandonContext()
+{
+    inside_->context.abandon();
+}
 
 } // namespace showmysky

@@ -9,8 +9,9 @@ namespace showmysky {
 
 using Texel = std::array<float, 4>; ///< X, Y, Z, scotopic; cd m^-2
 
-/// One table over [view][azimuth]. Views are two halves split at the horizon, each counted from it: the first half up to the
-/// zenith, the second down to the nadir. Within a half they stand as physics::horizonAngleNodes, azimuths as azimuthNodes.
+/// One table over [view][azimuth]. Views are two halves split at the horizon, each counted from it: the first half up
+/// to the zenith, the second down to the nadir. Within a half they stand as physics::horizonAngleNodes, azimuths as
+/// azimuthNodes.
 struct ViewTable {
     int halfViews = 0;
     int azimuths = 0;
@@ -34,7 +35,8 @@ struct SkyView {
 /// Size of the tables on the GPU: fine enough for linear interpolation.
 constexpr int drawnHalfViews = 64, drawnAzimuths = 64;
 
-/// A finer or coarser table by cubic interpolation: of logarithms where all four neighbours are positive, otherwise linear.
+/// A finer or coarser table by cubic interpolation: of logarithms where all four neighbours are positive, otherwise
+/// linear.
 ViewTable resampled(const ViewTable& table, int halfViews, int azimuths);
 
 /// Sum of two tables of the same size; an empty one counts as nothing.

@@ -32,7 +32,8 @@ bool TextureLookup::anyLuminance(const Atmosphere& atmosphere)
 {
     const auto names = tableNames(atmosphere);
     return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
-        return atmosphere.model.hasTable(name) && atmosphere.model.table(name).channels == sky::model::Channels::Luminance;
+        return atmosphere.model.hasTable(name) &&
+               atmosphere.model.table(name).channels == sky::model::Channels::Luminance;
     });
 }
 
@@ -81,7 +82,8 @@ SkyView TextureLookup::slice(double altitude, double muSun, const LayersUsed& la
                     if (luminance)
                         texels[t][c] += k == c ? values[t * 4 + k] / static_cast<float>(divisor) : 0.f;
                     else
-                        texels[t][c] += values[t * channels + k] * perRadiance[k][c] * static_cast<float>(ratio[k] / divisor);
+                        texels[t][c] +=
+                            values[t * channels + k] * perRadiance[k][c] * static_cast<float>(ratio[k] / divisor);
         }
         return fromIncreasingElevation(texels, from.views(), from.azimuths());
     };

@@ -15,7 +15,8 @@ class TextureLookup
 public:
     TextureLookup(const Atmosphere& atmosphere, const Phases& phases) : atmosphere_(atmosphere), phases_(phases) {}
 
-    /// Empty if the model holds the tables of all scatterers and of multiple scattering; otherwise the name of one that is missing.
+    /// Empty if the model holds the tables of all scatterers and of multiple scattering; otherwise the name of one that
+    /// is missing.
     static std::string missingTable(const Atmosphere& atmosphere);
     /// True if some table holds luminance, on which another solar spectrum can't act.
     static bool anyLuminance(const Atmosphere& atmosphere);

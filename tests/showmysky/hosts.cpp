@@ -24,20 +24,59 @@ std::map<std::string, std::vector<GLint>> snapshot(const gl::Api& api)
         api->GetIntegerv(what, values.data());
         state[name] = values;
     };
-    for (const GLenum what :
-         {GL_CURRENT_PROGRAM, GL_VERTEX_ARRAY_BINDING, GL_ARRAY_BUFFER_BINDING, GL_ELEMENT_ARRAY_BUFFER_BINDING,
-          GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, GL_PIXEL_PACK_BUFFER_BINDING, GL_PIXEL_UNPACK_BUFFER_BINDING,
-          GL_UNIFORM_BUFFER_BINDING, GL_DRAW_FRAMEBUFFER_BINDING, GL_READ_FRAMEBUFFER_BINDING, GL_RENDERBUFFER_BINDING,
-          GL_ACTIVE_TEXTURE, GL_VIEWPORT, GL_SCISSOR_BOX, GL_COLOR_WRITEMASK, GL_DEPTH_WRITEMASK, GL_DEPTH_FUNC,
-          GL_STENCIL_FUNC, GL_STENCIL_REF, GL_STENCIL_WRITEMASK, GL_CULL_FACE_MODE, GL_FRONT_FACE, GL_COLOR_CLEAR_VALUE,
-          GL_BLEND_SRC_RGB, GL_BLEND_DST_RGB, GL_BLEND_SRC_ALPHA, GL_BLEND_DST_ALPHA, GL_BLEND_EQUATION_RGB,
-          GL_BLEND_EQUATION_ALPHA, GL_BLEND, GL_DEPTH_TEST, GL_CULL_FACE, GL_SCISSOR_TEST, GL_DITHER, GL_STENCIL_TEST,
-          GL_SAMPLE_ALPHA_TO_COVERAGE, GL_SAMPLE_COVERAGE, GL_POLYGON_OFFSET_FILL, GL_RASTERIZER_DISCARD, GL_PACK_ALIGNMENT,
-          GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS, GL_UNPACK_ALIGNMENT, GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_PIXELS,
-          GL_FRAGMENT_SHADER_DERIVATIVE_HINT, GL_DRAW_BUFFER0, GL_READ_BUFFER})
+    for (const GLenum what : {GL_CURRENT_PROGRAM,
+                              GL_VERTEX_ARRAY_BINDING,
+                              GL_ARRAY_BUFFER_BINDING,
+                              GL_ELEMENT_ARRAY_BUFFER_BINDING,
+                              GL_COPY_READ_BUFFER,
+                              GL_COPY_WRITE_BUFFER,
+                              GL_PIXEL_PACK_BUFFER_BINDING,
+                              GL_PIXEL_UNPACK_BUFFER_BINDING,
+                              GL_UNIFORM_BUFFER_BINDING,
+                              GL_DRAW_FRAMEBUFFER_BINDING,
+                              GL_READ_FRAMEBUFFER_BINDING,
+                              GL_RENDERBUFFER_BINDING,
+                              GL_ACTIVE_TEXTURE,
+                              GL_VIEWPORT,
+                              GL_SCISSOR_BOX,
+                              GL_COLOR_WRITEMASK,
+                              GL_DEPTH_WRITEMASK,
+                              GL_DEPTH_FUNC,
+                              GL_STENCIL_FUNC,
+                              GL_STENCIL_REF,
+                              GL_STENCIL_WRITEMASK,
+                              GL_CULL_FACE_MODE,
+                              GL_FRONT_FACE,
+                              GL_COLOR_CLEAR_VALUE,
+                              GL_BLEND_SRC_RGB,
+                              GL_BLEND_DST_RGB,
+                              GL_BLEND_SRC_ALPHA,
+                              GL_BLEND_DST_ALPHA,
+                              GL_BLEND_EQUATION_RGB,
+                              GL_BLEND_EQUATION_ALPHA,
+                              GL_BLEND,
+                              GL_DEPTH_TEST,
+                              GL_CULL_FACE,
+                              GL_SCISSOR_TEST,
+                              GL_DITHER,
+                              GL_STENCIL_TEST,
+                              GL_SAMPLE_ALPHA_TO_COVERAGE,
+                              GL_SAMPLE_COVERAGE,
+                              GL_POLYGON_OFFSET_FILL,
+                              GL_RASTERIZER_DISCARD,
+                              GL_PACK_ALIGNMENT,
+                              GL_PACK_ROW_LENGTH,
+                              GL_PACK_SKIP_ROWS,
+                              GL_UNPACK_ALIGNMENT,
+                              GL_UNPACK_ROW_LENGTH,
+                              GL_UNPACK_SKIP_PIXELS,
+                              GL_FRAGMENT_SHADER_DERIVATIVE_HINT,
+                              GL_DRAW_BUFFER0,
+                              GL_READ_BUFFER})
         ask(std::to_string(what), what);
     if (!api.isEs())
-        for (const GLenum what : {GL_FRAMEBUFFER_SRGB, GL_COLOR_LOGIC_OP, GL_DEPTH_CLAMP, GL_PROGRAM_POINT_SIZE, GL_MULTISAMPLE})
+        for (const GLenum what :
+             {GL_FRAMEBUFFER_SRGB, GL_COLOR_LOGIC_OP, GL_DEPTH_CLAMP, GL_PROGRAM_POINT_SIZE, GL_MULTISAMPLE})
             ask("desktop " + std::to_string(what), what);
     GLint unit = 0;
     api->GetIntegerv(GL_ACTIVE_TEXTURE, &unit);
@@ -99,7 +138,8 @@ TEST_CASE("host: all OpenGL state is as it was after every call", "[gl]")
             unchanged("last loadStep");
             sky.setSettings(scene(100, 60));
             unchanged("setSettings");
-            while (!sky.prepareStep().done) {}
+            while (!sky.prepareStep().done) {
+            }
             unchanged("prepareStep");
             sky.draw(panorama(), 64, 32);
             unchanged("draw");

@@ -12,11 +12,11 @@ namespace showmysky {
 
 /// Parts of the light, each on or off.
 struct Layers {
-    bool zeroOrder = true;          ///< the ground by day; with `solarDisc` the Sun itself
-    bool solarDisc = false;         ///< the attenuated disc: far too bright for most pictures, so it is asked for
+    bool zeroOrder = true;  ///< the ground by day; with `solarDisc` the Sun itself
+    bool solarDisc = false; ///< the attenuated disc: far too bright for most pictures, so it is asked for
     bool singleScattering = true;
     bool multipleScattering = true;
-    bool lightPollution = false;    ///< needs a model that was computed with it
+    bool lightPollution = false;               ///< needs a model that was computed with it
     std::vector<std::string> hiddenScatterers; ///< whose single scattering is left out, by the names in the model
 };
 
@@ -29,15 +29,15 @@ enum class Source {
 };
 
 struct Sun {
-    double azimuth = 0;                 ///< rad
-    double zenithAngle = 0.7853981634;  ///< rad, 0 .. pi
+    double azimuth = 0;                    ///< rad
+    double zenithAngle = 0.7853981634;     ///< rad, 0 .. pi
     std::optional<double> angularRadius{}; ///< rad; empty: as the model says
 };
 
 struct Moon {
-    double azimuth = 0;         ///< rad
+    double azimuth = 0;                ///< rad
     double zenithAngle = 3.1415926536; ///< rad, 0 .. pi
-    double distance = 384400e3; ///< m, from the planet's centre
+    double distance = 384400e3;        ///< m, from the planet's centre
 };
 
 struct SceneSettings {

@@ -35,7 +35,7 @@ typedef struct showmysky_scene {
     double light_pollution_luminance;
     int source;
     int eclipse, on_the_fly_single_scattering, pseudo_mirror, texture_filtering; /* 0 or 1 */
-    const double* solar_spectrum_factors; /* null, or one per wavelength */
+    const double* solar_spectrum_factors;                                        /* null, or one per wavelength */
     size_t solar_spectrum_factor_count;
 } showmysky_scene;
 
@@ -66,13 +66,15 @@ SHOWMYSKY_API int showmysky_prepare_step(showmysky_sky* sky, int* done, double* 
 
 SHOWMYSKY_API void showmysky_default_scene(showmysky_scene* scene);
 SHOWMYSKY_API int showmysky_set_scene(showmysky_sky* sky, const showmysky_scene* scene);
-SHOWMYSKY_API int showmysky_draw(showmysky_sky* sky, const showmysky_camera* camera, int width, int height, int reduction);
+SHOWMYSKY_API int showmysky_draw(showmysky_sky* sky, const showmysky_camera* camera, int width, int height,
+                                 int reduction);
 SHOWMYSKY_API unsigned showmysky_luminance_texture(const showmysky_sky* sky);
 SHOWMYSKY_API unsigned showmysky_program(const showmysky_sky* sky);
 
 SHOWMYSKY_API int showmysky_pixel_luminance(const showmysky_sky* sky, int x, int y, showmysky_luminance* result);
 SHOWMYSKY_API int showmysky_view_direction(showmysky_sky* sky, int x, int y, double result[3]);
-/* Number of wavelengths, 0 where the model isn't loaded; the first `capacity` of them in nm, unless `result` is null. */
+/* Number of wavelengths, 0 where the model isn't loaded; the first `capacity` of them in nm, unless `result` is null.
+ */
 SHOWMYSKY_API size_t showmysky_wavelengths(const showmysky_sky* sky, double* result, size_t capacity);
 /* W m^-2 sr^-1 nm^-1 at the first `capacity` wavelengths. */
 SHOWMYSKY_API int showmysky_pixel_spectral_radiance(showmysky_sky* sky, int x, int y, double* result, size_t capacity);

@@ -1,9 +1,12 @@
 #pragma once
-// Draws the sky of a model into a luminance texture, in the OpenGL context of a host program (3.3 core or ES 3.0, newer too).
+// Draws the sky of a model into a luminance texture, in the OpenGL context of a host program (3.3 core or ES 3.0, newer
+// too).
 //
 // Rules for hosts
-// - The context given at the start is current whenever a function of Sky is called, and while a Sky dies. If the context was
-//   lost or is gone, call Sky::abandonContext() first; then only the destructor and the questions about the model are allowed.
+// - The context given at the start is current whenever a function of Sky is called, and while a Sky dies. If the
+// context was
+//   lost or is gone, call Sky::abandonContext() first; then only the destructor and the questions about the model are
+//   allowed.
 // - Every call leaves all OpenGL state as it was. Errors that the host left unread are dropped.
 // - One thread at a time for one Sky. Several may live in one context, or in several.
 // - Everything throws showmysky::Error and nothing else.
@@ -25,7 +28,7 @@ using GlLoader = std::function<void*(const char* name)>;
 enum class Projection {
     equirectangular, ///< `fieldOfView` wide, half as much high where the picture is twice as wide as high
     perspective,
-    fisheye          ///< equidistant: the angle from the axis is proportional to the distance from the middle
+    fisheye ///< equidistant: the angle from the axis is proportional to the distance from the middle
 };
 
 /// Where the camera looks. Angles in rad.
@@ -34,8 +37,8 @@ struct Camera {
     double fieldOfView = 1.5707963268; ///< over the width of the picture; perspective: < pi, others: <= 2 pi
     double yaw = 0;                    ///< azimuth of the middle of the picture, from North over East
     double pitch = 0;                  ///< elevation of the middle of the picture
-    /// A texture of the host, width x height: x, y, z of the direction of each pixel, of any length; 0, 0, 0 draws nothing.
-    /// If not 0 it takes the place of all above.
+    /// A texture of the host, width x height: x, y, z of the direction of each pixel, of any length; 0, 0, 0 draws
+    /// nothing. If not 0 it takes the place of all above.
     unsigned directionTexture = 0;
 };
 
@@ -52,11 +55,11 @@ struct Progress {
 };
 
 struct Options {
-    /// GLSL of the host, in place of the built-in projections: `vec3 viewDirection(vec2 position)`. `position` is in pixels from the
-    /// lower left corner; the vector is in the frame of settings.hpp, of any length; vec3(0.0) draws nothing. It may declare
-    /// uniforms of its own, set through Sky::program.
+    /// GLSL of the host, in place of the built-in projections: `vec3 viewDirection(vec2 position)`. `position` is in
+    /// pixels from the lower left corner; the vector is in the frame of settings.hpp, of any length; vec3(0.0) draws
+    /// nothing. It may declare uniforms of its own, set through Sky::program.
     std::string viewDirectionFunction{};
-    bool halfFloats = false;                      ///< 16-bit luminance texture and tables; on OpenGL ES always
+    bool halfFloats = false;                       ///< 16-bit luminance texture and tables; on OpenGL ES always
     std::function<void(const std::string&)> log{}; ///< takes warnings; without it there are none
 };
 
@@ -76,31 +79,34 @@ public:
     bool loaded() const;
 
     // The model.
-    const std::vector<double>& wavelengths() const; ///< nm
+    const std::vector<double>& wavelengths() const;     ///< nm
     const std::vector<double>& solarIrradiance() const; ///< W m^-2 nm^-1, settings' factors not applied
     std::vector<std::string> scatterers() const;
     bool hasSource(Source source) const;
     /// Empty if these settings can be drawn; otherwise a sentence that says why not.
     std::string whyUnsupported(const SceneSettings& settings) const;
-    double topOfAtmosphere() const; ///< m
-    double planetRadius() const;    ///< m
+    double topOfAtmosphere() const;  ///< m
+    double planetRadius() const;     ///< m
     double sunAngularRadius() const; ///< rad
 
     // The scene.
-    /// Keeps the settings; nothing is computed until they are needed.   throws settings, unsupported: the former scene stays
+    /// Keeps the settings; nothing is computed until they are needed.   throws settings, unsupported: the former scene
+    /// stays
     void setSettings(const SceneSettings& settings);
     const SceneSettings& settings() const;
-    /// Computes a part of what the settings changed: call until done, then draw() doesn't wait. draw() does what is left.
+    /// Computes a part of what the settings changed: call until done, then draw() doesn't wait. draw() does what is
+    /// left.
     Progress prepareStep();
 
     // Drawing.
-    /// Draws width x height / reduction pixels into luminanceTexture(). Nothing happens if nothing changed since the last time.
+    /// Draws width x height / reduction pixels into luminanceTexture(). Nothing happens if nothing changed since the
+    /// last time.
     ///   reduction  >= 1: pixels per drawn pixel, both ways, for scenes in motion
     ///   returns    true if it was drawn anew
     bool draw(const Camera& camera, int width, int height, int reduction = 1);
     /// RGBA: X, Y, Z, scotopic in cd m^-2, bottom row first. Belongs to the Sky; a new one after a change of size.
     unsigned luminanceTexture() const;
-    int width() const;  ///< of the luminance texture
+    int width() const; ///< of the luminance texture
     int height() const;
     /// All of luminanceTexture(): [height][width], bottom row first. Waits for the GPU.
     std::vector<Luminance> readLuminance() const;
