@@ -127,8 +127,7 @@ void DirectGather::gather(const DirectRays& rays, const SunSamples& samples, Str
     const int texels = rays.count * samples.suns * samples.azimuths;
     for (std::size_t i = 0; i < withPhase.size(); ++i) {
         program_.set("withPhase[" + std::to_string(i) + "]", withPhase[i] ? 1 : 0);
-        program_.set("resultOffsets[" + std::to_string(i) + "]",
-                     static_cast<int>(i) * texels * (luminance_.empty() ? scene_.sets() : 1));
+        program_.set("resultOffsets[" + std::to_string(i) + "]", static_cast<int>(i) * texels);
     }
     results.bindStorage(0);
     const gl::Bound pass(program_);
