@@ -17,6 +17,9 @@ bool anyPositive(const atmo::Spectrum& spectrum)
     return std::any_of(spectrum.begin(), spectrum.end(), [](double v) { return v > 0; });
 }
 
+/// False for particles that only absorb, or do nothing: no table is made for them.
+bool scattersLight(const atmo::Scatterer& s) { return s.crossSectionAt1um > 0 && anyPositive(s.singleScatteringAlbedo); }
+
 double texels(const atmo::SizeScattering& s, const Options& options)
 {
     const double layers = options.altitudeLayers ? options.altitudeLayers->second - options.altitudeLayers->first + 1 : s.altitude;
@@ -29,9 +32,7 @@ Needs needsOf(const atmo::Description& d, const Options& options)
 {
     Needs n;
     const auto has = [&](Part part) { return options.parts.count(part) > 0; };
-    const bool scatters = std::any_of(d.scatterers.begin(), d.scatterers.end(), [](const auto& s) {
-        return s.crossSectionAt1um > 0 && anyPositive(s.singleScatteringAlbedo);
-    });
+    const bool scatters = std::any_of(d.scatterers.begin(), d.scatterers.end(), scattersLight);
     const bool lit = anyPositive(d.solarIrradiance), several = d.allScatteringOrders || d.scatteringOrders > 1;
     const auto decide = [&](bool& flag, Part part, bool possible, const std::string& why) {
         flag = has(part) && possible;
@@ -95,6 +96,10 @@ std::vector<PlanItem> plan(const atmo::Description& d, const Options& options)
         items.push_back({"irradiance", true, "", size(1e6), size(2. * d.irradianceSize.altitude * d.irradianceSize.zenithAngle * sets * 16 * compressed), work.irradiance});
     if (needs.single)
         for (const auto& s : d.scatterers) {
+            if (!scattersLight(s)) {
+                items.push_back({"single-scattering/" + s.name, false, "it scatters no light", 0, 0, 0});
+                continue;
+            }
             const bool luminance = !options.radiance && s.phaseFunctionType != atmo::PhaseFunctionType::General;
             items.push_back({"single-scattering/" + s.name, true,
                              luminance ? "as XYZ and scotopic luminance" : "as spectral radiance", size(layer * (luminance ? 1 : sets)),
