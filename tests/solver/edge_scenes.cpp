@@ -1,0 +1,192 @@
+// Scenes at the edges of the language: all are computed, and every number is one.
+#include "model/medium_tables.hpp"
+#include "physics/colour.hpp"
+#include "support.hpp"
+#include <algorithm>
+
+using namespace sky;
+using namespace sky::solver;
+using namespace sky::solver::test;
+
+namespace {
+
+double largest(const model::Model& model, const std::string& table)
+{
+    const auto values = model.readAll(table);
+    return double(*std::max_element(values.begin(), values.end()));
+}
+
+} // namespace
+
+TEST_CASE("edge scene: a vacuum lets all light pass, and what it lacks is skipped with a reason", "[gl]")
+{
+    auto context = gl::testing::context();
+    if (!context)
+        return;
+    SceneText scene;
+    scene.species = "";
+    const Run run(*context, scene.parse());
+    checkValues(run.model);
+    CHECK(tableNames(run.model) == std::set<std::string>{"transmittance", "irradiance-direct"});
+    CHECK(model::readMedium(run.model).species.empty());
+    for (const float t : run.model.readAll("transmittance"))
+        CHECK(t == 1.F);
+    CHECK(largest(run.model, "irradiance-direct") == Approx(1.5).epsilon(1e-5)); // the Sun at the zenith
+    std::set<std::string> dark;
+    for (const auto& skipped : run.model.manifest().skipped)
+        if (skipped.why == "nothing in this atmosphere scatters")
+            dark.insert(skipped.what);
+    CHECK(dark == std::set<std::string>{"moments", "single", "multiple"});
+}
+
+TEST_CASE("edge scene: smoke that only absorbs has a transmittance and no sky", "[gl]")
+{
+    auto context = gl::testing::context();
+    if (!context)
+        return;
+    SceneText scene;
+    scene.species = scene.absorber();
+    const Run run(*context, scene.parse());
+    checkValues(run.model);
+    CHECK(tableNames(run.model) == std::set<std::string>{"medium", "transmittance", "irradiance-direct"});
+    // Vertical optical depth 1e5 x 1e-10 x 8000 = 0.08 but for what is above 100 km: last view of the first altitude.
+    const auto t = run.model.readAll("transmittance");
+    CHECK(double(t[3 * 2]) ==
+          Approx(std::exp(-0.08 * (1 - std::exp(-12.5)))).epsilon(1e-4)); // densities to 1e-4 and 3e-4
+}
+
+TEST_CASE("edge scene: scatterers that scatter nothing cost nothing", "[gl]")
+{
+    auto context = gl::testing::context();
+    if (!context)
+        return;
+    SceneText scene;
+    scene.species = SceneText::rayleigh() + SceneText::dust("general", "single scattering albedo: 0, 0") +
+                    SceneText::scatterer("ghost", "1e20", "vec4(1.0/(4.0*PI))", "smooth", "0 um^2");
+    const Run run(*context, scene.parse());
+    checkValues(run.model);
+    CHECK(run.has("single-scattering/air"));
+    CHECK_FALSE(run.has("single-scattering/dust"));
+    CHECK_FALSE(run.has("single-scattering/ghost"));
+    // Alone they make no sky at all, though they still absorb.
+    scene.species = SceneText::dust("general", "single scattering albedo: 0, 0");
+    const Run black(*context, scene.parse());
+    checkValues(black.model);
+    CHECK(tableNames(black.model) ==
+          std::set<std::string>{"medium", "phase-functions", "transmittance", "irradiance-direct"});
+    CHECK(double(black.model.readAll("transmittance")[3 * 2]) == Approx(std::exp(-0.05)).epsilon(1e-4));
+}
+
+TEST_CASE("edge scene: one order makes single scattering only", "[gl]")
+{
+    auto context = gl::testing::context();
+    if (!context)
+        return;
+    SceneText scene;
+    scene.orders = "1";
+    const Run run(*context, scene.parse());
+    checkValues(run.model);
+    CHECK(tableNames(run.model) == std::set<std::string>{"medium", "phase-functions", "transmittance",
+                                                         "irradiance-direct", "irradiance-diffuse",
+                                                         "single-scattering/air"});
+    CHECK(run.model.manifest().scatteringOrders == 1);
+}
+
+TEST_CASE("edge scene: all orders end by themselves, over white ground too, and white is brighter than black", "[gl]")
+{
+    auto context = gl::testing::context();
+    if (!context)
+        return;
+    SceneText scene;
+    scene.orders = "all";
+    double brightness[2];
+    for (const int albedo : {0, 1}) {
+        scene.albedo = std::to_string(albedo);
+        const Run run(*context, scene.parse());
+        checkValues(run.model);
+        CHECK(run.model.manifest().allScatteringOrders);
+        const int events = std::stoi(run.model.manifest().settings.at("moments.events"));
+        CHECK(events > 2);
+        CHECK(events < 60);
+        CHECK(run.model.manifest().estimatedError.at("orders left out") < 1e-3);
+        brightness[albedo] = largest(run.model, "multiple-scattering");
+    }
+    CHECK(brightness[1] > 1.2 * brightness[0]);
+}
+
+TEST_CASE("edge scene: planets and atmospheres of every size", "[gl]")
+{
+    auto context = gl::testing::context();
+    if (!context)
+        return;
+    for (const char* radius : {"100 km", "10 Gm"})
+        for (const char* top : {"1 m", "1 Mm"}) {
+            SceneText scene;
+            scene.radius = radius;
+            scene.top = top;
+            scene.species = SceneText::rayleigh("1.5e24*exp(-8.0*altitude/atmosphereHeight)");
+            INFO("R " << radius << " H " << top);
+            const Run run(*context, scene.parse());
+            checkValues(run.model);
+            CHECK(largest(run.model, "single-scattering/air") > 0);
+            CHECK(largest(run.model, "multiple-scattering") > 0);
+        }
+}
+
+TEST_CASE("edge scene: a Sun that fills the sky, and one that is a point", "[gl]")
+{
+    auto context = gl::testing::context();
+    if (!context)
+        return;
+    for (const char* sun : {"0.5 AU", "1e20 AU"}) {
+        SceneText scene;
+        scene.sun = sun;
+        INFO(sun);
+        const Run run(*context, scene.parse());
+        checkValues(run.model);
+        CHECK(largest(run.model, "multiple-scattering") > 0);
+        const auto direct =
+            run.model.readAll("irradiance-direct"); // on the ground, Sun at the zenith; half a degree of disc
+        CHECK(double(direct[3 * 2]) == Approx(1.5 * std::exp(-0.12)).epsilon(1e-3));
+    }
+}
+
+TEST_CASE("edge scene: air of optical depth 1000", "[gl]")
+{
+    auto context = gl::testing::context();
+    if (!context)
+        return;
+    SceneText scene;
+    scene.species = SceneText::rayleigh("1.25e28*exp(-altitude/(8.0*km))");
+    const Run run(*context, scene.parse());
+    checkValues(run.model);
+    // From space it is a bright ball; on the ground no sunlight arrives by itself.
+    CHECK(largest(run.model, "single-scattering/air") > 0);
+    CHECK(largest(run.model, "transmittance") == Approx(1));
+    const auto direct = run.model.readAll("irradiance-direct");
+    CHECK(direct[3 * 2] == 0.F); // Sun at the zenith, seen from the ground: exp(-1000)
+}
+
+TEST_CASE("edge scene: one wavelength, and a Sun without light", "[gl]")
+{
+    auto context = gl::testing::context();
+    if (!context)
+        return;
+    SceneText scene;
+    scene.wavelengths = 1;
+    scene.minNm = scene.maxNm = 555;
+    const Run run(*context, scene.parse());
+    checkValues(run.model);
+    const auto xyz = run.model.readAll("multiple-scattering");
+    const auto weights = physics::luminanceWeights({555});
+    std::size_t brightest = 0; // texel
+    for (std::size_t texel = 0; texel < xyz.size() / 4; ++texel)
+        brightest = xyz[texel * 4 + 1] > xyz[brightest * 4 + 1] ? texel : brightest;
+    CHECK(double(xyz[brightest * 4] / xyz[brightest * 4 + 1]) ==
+          Approx(weights[0][0] / weights[0][1]).epsilon(2e-3)); // 11 bits
+    auto night = scene.parse();
+    night.solarIrradiance = {0};
+    const Run dark(*context, night);
+    checkValues(dark.model);
+    CHECK(tableNames(dark.model) == std::set<std::string>{"medium", "phase-functions", "transmittance"});
+}
