@@ -157,6 +157,7 @@ TEST_CASE("edge scene: air of optical depth 1000", "[gl]")
     if (!context)
         return;
     SceneText scene;
+    scene.orders = "2"; // many levels: each sweep takes a second
     scene.species = SceneText::rayleigh("1.25e28*exp(-altitude/(8.0*km))");
     const Run run(*context, scene.parse());
     checkValues(run.model);
