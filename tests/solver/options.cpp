@@ -214,6 +214,24 @@ TEST_CASE("options: a run that is stopped leaves nothing, or the old model", "[g
     }
 }
 
+TEST_CASE("options: a value that is no number ends the run, names its table and leaves nothing", "[gl]")
+{
+    auto context = gl::testing::context();
+    if (!context)
+        return;
+    auto description = SceneText().parse();
+    description.solarIrradiance = {1e39, 1.5}; // beyond float
+    const Scratch scratch;
+    Listener quiet;
+    try {
+        solve(description, only({Part::Irradiance}), *context, scratch.path / "m", quiet);
+        FAIL("was written");
+    } catch (const NumericsError& error) {
+        CHECK_THAT(error.what(), Catch::Contains("irradiance-direct") && Catch::Contains("infinite"));
+    }
+    CHECK(fs::is_empty(scratch.path));
+}
+
 TEST_CASE("options: the same run twice gives the same bytes", "[gl]")
 {
     auto context = gl::testing::context();
@@ -246,7 +264,7 @@ TEST_CASE("options: qualities by name, each finer than the one before")
         air.scatteringAngles.push_back(3.14159265358979323846 * i / 720);
     physics::Species dust;
     dust.numberDensity = {1, 1};
-    dust.extinctionCrossSection = {1e-6};
+    dust.extinctionCrossSection = {5e-8}; // thin: its peak is not worth truncating
     dust.singleScatteringAlbedo = {1};
     for (const double angle : air.scatteringAngles) // Henyey-Greenstein, g = 0.6
         dust.phaseFunction.push_back(0.64 / (4 * 3.14159265358979323846 * std::pow(1.36 - 1.2 * std::cos(angle), 1.5)));
