@@ -65,7 +65,7 @@ public:
     explicit SkyFromTextures(const Model& model) : medium_(readMedium(model))
     {
         for (const auto& species : medium_.species)
-            if (species.scatters())
+            if (species.scatters() && model.hasTable("single-scattering/" + species.name))
                 single_.push_back({&species, ScatteringTable(model, "single-scattering/" + species.name)});
         if (!onlySingle(model))
             multiple_.emplace(model, "multiple-scattering");

@@ -9,8 +9,13 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
+/// Neighbouring intervals, as a share of this one, below which a level counts as an end.
+constexpr double unevenness = 0.25;
+
 /// Optical depth between two levels of the grid above which another level is put between them.
 constexpr double levelOpticalDepth = 0.5;
+/// So many times more of them in a layer with an edge.
+constexpr double edgeCrowding = 2;
 
 double measureOf(const Planet& p, double altitude) { return std::sqrt(std::max(0., radiusExcessSquared(p, altitude))); }
 
@@ -61,15 +66,26 @@ MomentGrid::MomentGrid(const Profile& profile, const std::vector<double>& larges
         if (steep || std::abs(above - below) * top > 0.02 * std::max(1., depth.back()))
             levels.push_back(0.5 * (shells[k] + shells[k + 1]) - (steep ? 0 : 0.5 * (shells[k + 1] - shells[k])));
     }
+    const std::vector<double> jumps(levels.begin() + altitudeCount, levels.end());
+    const auto isJump = [&](double level) { return std::find(jumps.begin(), jumps.end(), level) != jumps.end(); };
     std::sort(levels.begin(), levels.end());
     altitudes_.push_back(0);
     for (const double level : levels) {
         const double last = altitudes_.back();
         if (level - last < 1e-6 * top)
             continue;
-        const int extra = std::min(63, static_cast<int>((depthAt(level) - depthAt(last)) / levelOpticalDepth));
-        for (int i = 1; i <= extra; ++i)
-            altitudes_.push_back(last + (level - last) * i / (extra + 1));
+        // The field bends within a small optical depth of an edge, so levels crowd there, as the cosines of even angles do.
+        const bool edgeBelow = isJump(last), edgeAbove = isJump(level);
+        const double density = edgeBelow || edgeAbove ? edgeCrowding / levelOpticalDepth : 1 / levelOpticalDepth;
+        const int extra = std::min(63, static_cast<int>((depthAt(level) - depthAt(last)) * density));
+        for (int i = 1; i <= extra; ++i) {
+            const double even = static_cast<double>(i) / (extra + 1);
+            const double share = edgeBelow && edgeAbove ? 0.5 - 0.5 * std::cos(pi * even)
+                                 : edgeBelow            ? 1 - std::cos(0.5 * pi * even)
+                                 : edgeAbove            ? std::sin(0.5 * pi * even)
+                                                        : even;
+            altitudes_.push_back(last + (level - last) * share);
+        }
         altitudes_.push_back(level);
     }
     altitudes_.back() = top;
@@ -112,10 +128,12 @@ Stencil MomentGrid::altitudeStencil(const double altitude) const
     const int k = std::clamp(static_cast<int>(std::upper_bound(measure_.begin(), measure_.end(), x) - measure_.begin()) - 1, 0,
                              n - 2);
     const double gap = measure_[k + 1] - measure_[k], t = std::clamp((x - measure_[k]) / gap, 0., 1.);
-    // Hermite basis; the slope at a level is that of the parabola through it and its neighbours, one-sided at the ends.
+    // Hermite basis; the slope at a level is that of the parabola through it and its neighbours, one-sided at the ends. Also where
+    // the neighbour is much nearer than the interval is wide, at a layer's edge: the field bends there, and a slope taken from so
+    // short a step would be thrown far.
     const double h10 = t * (1 - t) * (1 - t) * gap, h11 = -t * t * (1 - t) * gap, h01 = t * t * (3 - 2 * t);
     Stencil stencil{{std::max(k - 1, 0), k, k + 1, std::min(k + 2, n - 1)}, {0, 1 - h01, h01, 0}};
-    if (k > 0) {
+    if (k > 0 && measure_[k] - measure_[k - 1] > unevenness * gap) {
         const double before = measure_[k] - measure_[k - 1], sum = before + gap;
         stencil.weight[0] += h10 * -gap / (before * sum);
         stencil.weight[1] += h10 * (gap - before) / (before * gap);
@@ -124,7 +142,7 @@ Stencil MomentGrid::altitudeStencil(const double altitude) const
         stencil.weight[1] -= h10 / gap;
         stencil.weight[2] += h10 / gap;
     }
-    if (k + 2 < n) {
+    if (k + 2 < n && measure_[k + 2] - measure_[k + 1] > unevenness * gap) {
         const double after = measure_[k + 2] - measure_[k + 1], sum = gap + after;
         stencil.weight[1] += h11 * -after / (gap * sum);
         stencil.weight[2] += h11 * (after - gap) / (gap * after);

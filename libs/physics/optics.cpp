@@ -8,7 +8,7 @@ namespace {
 
 /// Scattering optical depth of truncated light, along the vertical, from which scaling pays. Below it, leaving the series cut and
 /// the optical depths alone is the more accurate (docs/accuracy).
-constexpr double truncationMatters = 0.1;
+constexpr double truncationMatters = 0.005;
 
 double column(const Medium& medium, const Species& species)
 {

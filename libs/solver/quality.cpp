@@ -62,8 +62,8 @@ Quality qualityFor(const std::string& name, const physics::Medium& medium, const
     // A peak worth truncating is worth more harmonics, and directions that resolve them.
     const auto optics = physics::makeOptics(medium, m.degree, true);
     const bool truncated = std::any_of(optics.truncation.begin(), optics.truncation.end(), [](double f) { return f > 0; });
-    if (truncated && m.degree < 12) {
-        m.degree *= 2;
+    if (truncated) {
+        m.degree = std::max(12, 2 * m.degree);
         m.groundDirections += 2;
         m.skyDirections += 4;
         m.azimuths = std::max(m.azimuths, m.degree + 2);
