@@ -7,7 +7,7 @@ namespace sky::physics {
 namespace {
 
 /// Scattering optical depth of truncated light, along the vertical, from which scaling pays. Below it, leaving the series cut and
-/// the optical depths alone is the more accurate (docs/accuracy).
+/// the optical depths alone is the more accurate at a low degree.
 constexpr double truncationMatters = 0.005;
 
 double column(const Medium& medium, const Species& species)

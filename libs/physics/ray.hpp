@@ -52,7 +52,6 @@ private:
     std::vector<double> centres_;  // [cells][species], centre of mass along the cell, 0..1
     std::vector<double> altitudes_; // [cells + 1]
     std::vector<double> maxExtinction_; // [species]
-    std::vector<double> meanScattering_;
 };
 
 } // namespace sky::physics

@@ -18,7 +18,7 @@ struct FineField {
 /// Folds what depends on a ray alone into azimuthal terms per node and Sun, so that the gather meets degree + 1 numbers
 /// instead of (degree + 1)(degree + 2) / 2, and no altitudes (shaders/lib/scattered.glsl):
 ///     g_m = sum over l, i of w_i lambda_l,i (I_lm / I_00) P_lm(mu)
-/// Done here because a CPU's vectors do it ten times faster than a software driver's shader, and a GPU hardly notices.
+/// Done here because a CPU's vectors suit it better than a software driver's loads and scalar stores (docs/method 8).
 ///   source  [ray][node + ground][sun][1 + term][wavelength], rays first .. first + count - 1; term 0 is log2 I_00
 void fold(const FineField& field, const ScatteredRays& rays, int first, int count, float* source);
 

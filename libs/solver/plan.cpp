@@ -5,7 +5,7 @@ namespace sky::solver {
 
 namespace {
 
-/// Visits of a ray's node per second for one set of four wavelengths, measured with llvmpipe on two cores (docs/accuracy).
+/// Visits of a ray's node per second for one set of four wavelengths, a rough guess for llvmpipe on two cores.
 constexpr double directVisits = 1.6e8, scatteredVisits = 4.5e7;
 constexpr double qualityFactor(const std::string& quality)
 {

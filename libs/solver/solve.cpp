@@ -84,6 +84,8 @@ void solve(const atmo::Description& description, const Options& options, gl::Hea
     auto breath = stages.begin("medium", stages.work().medium);
     std::vector<std::string> warnings;
     const physics::Medium medium = evaluateMedium(description, api, warnings);
+    if (options.saveLightPollution)
+        warnings.push_back("--save-light-pollution has no effect yet: this version computes no light pollution.");
     for (const auto& sentence : warnings)
         progress.warning(sentence);
     model::Manifest manifest = describe(description, options, medium);
