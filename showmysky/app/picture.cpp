@@ -15,51 +15,6 @@
 
 namespace showmysky::app {
 
-namespace {
-
-using Rgb = std::array<double, 3>;
-
-/// Towards grey of the same luminance until no component is negative.
-Rgb intoGamut(Rgb colour, double luminance)
-{
-    double keep = 1;
-    for (const double c : colour)
-        if (c < 0)
-            keep = std::min(keep, luminance / (luminance - c));
-    for (double& c : colour)
-        c = std::max(0., luminance + keep * (c - luminance));
-    return colour;
-}
-
-Rgb developed(const Luminance& pixel, double factor, ToneCurve curve)
-{
-    const sky::physics::XYZ xyz{static_cast<double>(pixel.x) * factor, static_cast<double>(pixel.y) * factor,
-                                static_cast<double>(pixel.z) * factor};
-    Rgb colour = intoGamut(sky::physics::linearSrgb(xyz), xyz[1]);
-    // As film does: a little more contrast, and thereby colour, about a middle tone; then light that saturates.
-    // A trace of light leaks between the channels, so that what is far too bright, the Sun itself, ends white.
-    constexpr double middle = 0.3, contrast = 1.25, leak = 0.01;
-    for (double& c : colour)
-        if (curve == ToneCurve::exponential)
-            c = -std::expm1(-middle * std::pow((c + leak * (xyz[1] - c)) / middle, contrast));
-        else if (curve == ToneCurve::reinhard)
-            c /= 1 + xyz[1];
-    return colour;
-}
-
-/// Threshold of an 8 x 8 ordered dither (Bayer 1973), 0..1 exclusive.
-double ditherThreshold(int x, int y)
-{
-    int value = 0;
-    for (int bit = 0; bit < 3; ++bit) {
-        const int a = (x >> bit) & 1, b = (y >> bit) & 1;
-        value |= ((a ^ b) << (5 - 2 * bit)) | (b << (4 - 2 * bit));
-    }
-    return (value + 0.5) / 64;
-}
-
-} // namespace
-
 double automaticExposure(const Picture& picture)
 {
     std::vector<float> luminances;
@@ -79,28 +34,15 @@ double automaticExposure(const Picture& picture)
     return std::log10(dimming * std::min(0.4 / mean, 2.0 / static_cast<double>(*bright)));
 }
 
-void writePng(const std::string& path, const Picture& picture, const Development& development)
+void writePng(const std::string& path, const Levels& levels)
 {
-    const double factor = std::pow(10., development.automatic ? automaticExposure(picture) : development.exposure);
-    std::vector<std::uint8_t> bytes;
-    bytes.reserve(picture.pixels.size() * 3);
-    for (int y = 0; y < picture.height; ++y)
-        for (int x = 0; x < picture.width; ++x) {
-            const auto& pixel =
-                picture
-                    .pixels[static_cast<std::size_t>(picture.height - 1 - y) * static_cast<std::size_t>(picture.width) +
-                            static_cast<std::size_t>(x)];
-            for (const double c : developed(pixel, factor, development.curve)) {
-                const double level = 255 * sky::physics::encodeSrgb(std::clamp(c, 0., 1.));
-                bytes.push_back(static_cast<std::uint8_t>(std::min(255., std::floor(level + ditherThreshold(x, y)))));
-            }
-        }
     png_image image{};
     image.version = PNG_IMAGE_VERSION;
-    image.width = static_cast<png_uint_32>(picture.width);
-    image.height = static_cast<png_uint_32>(picture.height);
+    image.width = static_cast<png_uint_32>(levels.width);
+    image.height = static_cast<png_uint_32>(levels.height);
     image.format = PNG_FORMAT_RGB;
-    if (!png_image_write_to_file(&image, path.c_str(), 0, bytes.data(), 0, nullptr))
+    const auto bottomFirst = -static_cast<png_int_32>(PNG_IMAGE_ROW_STRIDE(image));
+    if (!png_image_write_to_file(&image, path.c_str(), 0, levels.rgb.data(), bottomFirst, nullptr))
         throw sky::FileError("Cannot write `" + path + "`: " + image.message + ".");
 }
 

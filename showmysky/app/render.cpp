@@ -1,10 +1,12 @@
 // showmysky render: draws without a window, one picture or numbered frames.
 
 #include "base/error.hpp"
+#include "developer.hpp"
 #include "gl/context.hpp"
 #include "picture.hpp"
-#include "scene_options.hpp"
+#include "scene_file.hpp"
 #include "subcommand.hpp"
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -60,6 +62,8 @@ public:
         render->add_option("--animate", animation_, "NAME=FROM..TO:FRAMES: numbered pictures over a range of an option")
             ->group("Picture");
         render->add_flag("--gles", gles_, "use OpenGL ES 3.0 instead of OpenGL 3.3")->group("OpenGL");
+        render->add_option("--save-scene", saveScene_, "write the scene of the options to this file too")
+            ->group("Scene");
         scene_.addTo(*render);
         return render;
     }
@@ -73,6 +77,8 @@ public:
         const Animation animation = animation_.empty() ? Animation{} : parseAnimation(animation_);
         if (!animation_.empty())
             scene_.number(animation.name);
+        if (!saveScene_.empty())
+            saveScene(scene_, saveScene_);
 
         sky::gl::HeadlessOptions headless;
         headless.version = gles_ ? sky::gl::Version{3, 0, true} : sky::gl::Version{3, 3, false};
@@ -81,6 +87,7 @@ public:
         options.log = [](const std::string& text) { std::cerr << "showmysky: " << text << '\n'; };
         Sky sky(model_, context.loader(), options);
         sky.loadAll();
+        Developer developer(context.api());
         for (int frame = 0; frame < animation.frames; ++frame) {
             std::string path = output_;
             if (!animation_.empty()) {
@@ -88,11 +95,14 @@ public:
                 scene_.number(animation.name) = animation.from + share * (animation.to - animation.from);
                 path = framePath(output_, frame, animation.frames);
             }
-            sky.setSettings(scene_.settings());
+            sky.setSettings(scene_.settings(sky));
             sky.draw(scene_.camera(), width, height);
             const Picture picture{sky.width(), sky.height(), sky.readLuminance()};
+            const auto& development = scene_.development;
             if (extension == ".png")
-                writePng(path, picture, scene_.development);
+                writePng(path,
+                         developer.levels(sky.luminanceTexture(), width, height, development,
+                                          development.automatic ? automaticExposure(picture) : development.exposure));
             else
                 writeExr(path, picture);
             std::cout << path << std::endl;
@@ -111,7 +121,7 @@ private:
         return {width, height};
     }
 
-    std::string model_, output_, size_ = "1280x720", animation_;
+    std::string model_, output_, size_ = "1280x720", animation_, saveScene_;
     bool gles_ = false;
     SceneOptions scene_;
 };

@@ -1,0 +1,8 @@
+# The parts of the program `showmysky` that need no window: scenes as text, what a screen shows, input.
+set(app ${PROJECT_SOURCE_DIR}/showmysky/app)
+file(GLOB appSources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/app/*.cpp)
+add_executable(test_showmysky_app ${appSources} ${app}/blue_noise.cpp ${app}/developer.cpp ${app}/picture.cpp
+    ${app}/scene_fields.cpp ${app}/scene_file.cpp ${app}/solar_spectrum.cpp)
+target_include_directories(test_showmysky_app PRIVATE ${app} ${PROJECT_SOURCE_DIR}/tests)
+target_link_libraries(test_showmysky_app PRIVATE sky_options sky_test_main showmysky_static PNG::PNG OpenEXR::OpenEXR)
+catch_discover_tests(test_showmysky_app TEST_PREFIX "showmysky app: ")
