@@ -1,0 +1,268 @@
+#include "eclipse/field.hpp"
+#include "base/parallel.hpp"
+#include "eclipse/state.hpp"
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+namespace sky::eclipse {
+
+namespace {
+
+constexpr float pi = 3.14159265f;
+constexpr int mostEvents = 60;
+/// Light below this share of full sunlight is darkness: single precision loses it on the way.
+constexpr double darkness = 1e-30;
+
+/// Runs work(i) for i = 0 .. count - 1 on all cores, each taking the next that is left.
+template<class Work>
+void spread(int count, Work&& work)
+{
+    std::atomic<int> next{0};
+    base::parallel([&](int, int) {
+        for (int i = next++; i < count; i = next++)
+            work(i);
+    });
+}
+
+/// What all later events will add, lane by lane: a geometric series from the last two.
+float tailRatio(float last, float before) { return before > 0 ? std::clamp(last / before, 0.f, 0.95f) : 0.f; }
+
+} // namespace
+
+/// Memory of one task.
+struct Scratch {
+    Lanes planes;  // [azimuth][point]: light that leaves points towards the viewer; mixed sunlight
+    Lanes light;   // [azimuth][scatterer][point]
+    Lanes arrived; // [azimuth][point]
+    Lanes row;
+    std::vector<float> nu;
+};
+
+ScatteredField::State::State(std::shared_ptr<const AirRays> rays, const physics::SunTable& sun_, const physics::EclipseBodies& bodies,
+                             const Orders& orders_, VisibleShare visible_)
+    : air(std::move(rays)), sun(sun_), orders(orders_), visible(std::move(visible_)), frame(bodies), grid(makeGrid(frame, air->settings)),
+      fine(refined(grid, std::max(1, air->settings.sunlightRefinement))), turn(air->settings.azimuths, air->degree)
+{
+    if (!visible) {
+        const auto shadow = physics::singlePrecision(physics::makeShadow(bodies));
+        visible = [shadow](const std::array<float, 3>& point) { return shadow.visible(point); };
+    }
+    for (const float y : grid.y)
+        for (const float x : grid.x)
+            sunAt.push_back(frame.sunAt(frame.axesAt(static_cast<double>(x), static_cast<double>(y))));
+    done = air->scatterers == 0 || (!orders.all && orders.orders < 2);
+}
+
+void ScatteredField::State::shine()
+{
+    const auto& levelsOfSun = air->sunlightLevels;
+    const auto finePoints = static_cast<std::size_t>(fine.points()), groups = static_cast<std::size_t>(air->groups);
+    const auto levelCount = static_cast<std::size_t>(levelsOfSun.count());
+    sunlight.assign(groups * levelCount * finePoints, Lane{});
+    sunnyGround.assign(groups * finePoints, Lane{});
+    spread(fine.across(), [&](int j) {
+        std::vector<double> light(static_cast<std::size_t>(air->wavelengths));
+        const auto put = [&](Lanes& lights, std::size_t index, std::size_t stride, float share) {
+            for (double& value : light)
+                value = value > darkness ? value : 0;
+            for (std::size_t g = 0; g < groups; ++g) {
+                Lane& lane = lights[g * stride + index];
+                fillLane(lane, light.data(), static_cast<int>(g), air->wavelengths);
+                for (int i = 0; i < waves; ++i)
+                    lane[i] *= share;
+            }
+        };
+        for (int i = 0; i < fine.along(); ++i) {
+            const auto point = static_cast<std::size_t>(j * fine.along() + i);
+            const LocalAxes axes = frame.axesAt(static_cast<double>(fine.x[static_cast<std::size_t>(i)]),
+                                                static_cast<double>(fine.y[static_cast<std::size_t>(j)]));
+            const double muSun = frame.sunAt(axes)[2];
+            for (std::size_t level = 0; level < levelCount; ++level) {
+                const double altitude = levelsOfSun.altitude(static_cast<int>(level));
+                sun.transmittance(altitude, muSun, light.data());
+                if (*std::max_element(light.begin(), light.end()) <= darkness)
+                    continue;
+                const Vector place = frame.position(axes, altitude);
+                const float share = std::clamp(
+                    visible({static_cast<float>(place[0]), static_cast<float>(place[1]), static_cast<float>(place[2])}), 0.f, 1.f);
+                put(sunlight, level * finePoints + point, levelCount * finePoints, share);
+                if (level == 0) {
+                    sun.horizontalIrradiance(altitude, muSun, light.data());
+                    put(sunnyGround, point, finePoints, share);
+                }
+            }
+        }
+    });
+    lit = true;
+}
+
+void ScatteredField::State::directRay(const GridRay& ray, int group, Scratch& scratch) const
+{
+    const int gridPoints = grid.points(), finePoints = fine.points(), azimuths = turn.count, scatterers = air->scatterers;
+    const int nodes = static_cast<int>(ray.direct.size());
+    const auto g = static_cast<std::size_t>(group);
+    const Lane* levels = &sunlight[g * static_cast<std::size_t>(air->sunlightLevels.count() * finePoints)];
+    scratch.planes.resize(static_cast<std::size_t>(finePoints));
+    scratch.light.assign(static_cast<std::size_t>(scatterers * azimuths * gridPoints), Lane{});
+    for (int k = 0; k < nodes; ++k) {
+        const Place& place = ray.direct[static_cast<std::size_t>(k)];
+        const Lane* lower = levels + place.level * finePoints;
+        mix(lower, lower + finePoints, place.share, finePoints, scratch.planes.data());
+        for (int a = 0; a < azimuths; ++a)
+            addShifted(Shift(fine, grid, place.distance, turn.azimuth(a)), fine.along(), scratch.planes.data(), scratch.planes.data(),
+                       &ray.directWeights[static_cast<std::size_t>((group * nodes + k) * scatterers)], scatterers, scratch.row.data(),
+                       &scratch.light[static_cast<std::size_t>(a * scatterers * gridPoints)]);
+    }
+    const Lane* phase = &air->phase[g * static_cast<std::size_t>(scatterers * (air->degree + 1))];
+    const float sine = std::sqrt(std::max(0.f, 1 - ray.mu * ray.mu));
+    scratch.nu.resize(points());
+    for (int a = 0; a < azimuths; ++a) {
+        const auto c = static_cast<float>(std::cos(turn.azimuth(a))), s = static_cast<float>(std::sin(turn.azimuth(a)));
+        for (std::size_t p = 0; p < points(); ++p)
+            scratch.nu[p] = std::clamp(ray.mu * static_cast<float>(sunAt[p][2]) +
+                                           sine * (c * static_cast<float>(sunAt[p][0]) + s * static_cast<float>(sunAt[p][1])),
+                                       -1.f, 1.f);
+        scatterSunlight(air->degree, scatterers, phase, scratch.nu.data(), &scratch.light[static_cast<std::size_t>(a * scatterers * gridPoints)],
+                        gridPoints, &scratch.arrived[static_cast<std::size_t>(a * gridPoints)]);
+        if (ray.hitsGround) {
+            const Lane* ground = &sunnyGround[g * static_cast<std::size_t>(finePoints)];
+            addShifted(Shift(fine, grid, ray.groundDistance, turn.azimuth(a)), fine.along(), ground, ground, &ray.ground[g], 1,
+                       scratch.row.data(), &scratch.arrived[static_cast<std::size_t>(a * gridPoints)]);
+        }
+    }
+}
+
+void ScatteredField::State::scatteredRay(const GridRay& ray, int group, Scratch& scratch) const
+{
+    const int gridPoints = grid.points(), azimuths = turn.count, nodes = static_cast<int>(ray.scattered.size());
+    const int terms = (air->degree + 1) * (air->degree + 2) / 2;
+    scratch.planes.resize(static_cast<std::size_t>(azimuths * gridPoints));
+    std::fill(scratch.arrived.begin(), scratch.arrived.end(), Lane{});
+    const auto shifted = [&](float distance, const Lane* planes, const Lane* weights) {
+        for (int a = 0; a < azimuths; ++a) {
+            const int step = weights ? 0 : gridPoints; // the ground looks the same from all sides
+            addShifted(Shift(grid, grid, distance, turn.azimuth(a)), grid.along(), planes + a * step, planes + turn.mirror(a) * step, weights, 1,
+                       scratch.row.data(), &scratch.arrived[static_cast<std::size_t>(a * gridPoints)]);
+        }
+    };
+    for (int k = 0; k < nodes; ++k) {
+        const Place& place = ray.scattered[static_cast<std::size_t>(k)];
+        radiate(turn, momentsAt(last, group, place.level), momentsAt(last, group, place.level + 1), place.share,
+                &ray.coefficients[static_cast<std::size_t>((group * nodes + k) * terms)], gridPoints, scratch.planes.data());
+        shifted(place.distance, scratch.planes.data(), nullptr);
+    }
+    if (ray.hitsGround)
+        shifted(ray.groundDistance, &last.irradiance[static_cast<std::size_t>(group) * points()], &ray.ground[static_cast<std::size_t>(group)]);
+}
+
+void ScatteredField::State::gatherLevel(int level, int group, Light& light) const
+{
+    Scratch scratch;
+    scratch.row.resize(static_cast<std::size_t>(fine.along()));
+    scratch.arrived.resize(static_cast<std::size_t>(turn.count) * points());
+    Lane* moments = &light.moments[(static_cast<std::size_t>(group) * levels() + static_cast<std::size_t>(level)) * points() * harmonics()];
+    for (const GridRay& ray : air->rays[static_cast<std::size_t>(level)]) {
+        if (events == 0)
+            directRay(ray, group, scratch);
+        else
+            scatteredRay(ray, group, scratch);
+        Lane* irradiance = level == 0 && ray.mu > 0 ? &light.irradiance[static_cast<std::size_t>(group) * points()] : nullptr;
+        project(turn, scratch.arrived.data(), ray.factors.data(), 2 * pi * ray.weight, grid.points(), moments, irradiance, ray.mu);
+    }
+}
+
+Light ScatteredField::State::gather() const
+{
+    const auto groups = static_cast<std::size_t>(air->groups);
+    Light light{Lanes(groups * levels() * points() * harmonics(), Lane{}), Lanes(groups * points(), Lane{})};
+    spread(air->levels.count() * air->groups, [&](int i) { gatherLevel(i / air->groups, i % air->groups, light); });
+    return light;
+}
+
+void ScatteredField::State::add(const Light& light)
+{
+    if (total.moments.empty()) {
+        total = light;
+        return;
+    }
+    for (std::size_t i = 0; i < light.moments.size(); ++i)
+        total.moments[i] += light.moments[i];
+    for (std::size_t i = 0; i < light.irradiance.size(); ++i)
+        total.irradiance[i] += light.irradiance[i];
+}
+
+double ScatteredField::State::close()
+{
+    // The tail has the shape of the last event in all harmonics. Its change against the estimate one event ago tells when to stop.
+    double change = 0;
+    float brightest[lanes] = {};
+    for (std::size_t i = 0; i < total.moments.size(); i += harmonics())
+        for (int w = 0; w < lanes; ++w)
+            brightest[w] = std::max(brightest[w], total.moments[i][w]);
+    Lanes scales(total.moments.size() / harmonics(), Lane{});
+    for (std::size_t i = 0; i < total.moments.size(); i += harmonics())
+        for (int w = 0; w < lanes; ++w) {
+            const float now = last.moments[i][w], earlier = before.moments[i][w], ratio = tailRatio(now, earlier);
+            scales[i / harmonics()][w] = ratio / (1 - ratio);
+            // One event ago the estimate ended in a tail too: this event's share of it was what the ratio then foretold.
+            const float sum = total.moments[i][w] + scales[i / harmonics()][w] * now;
+            if (total.moments[i][w] > 1e-7f * brightest[w])
+                change = std::max(change, static_cast<double>(scales[i / harmonics()][w] * now / sum));
+        }
+    if (change >= orders.tolerance * 20 && events < mostEvents)
+        return change;
+    for (std::size_t i = 0; i < total.moments.size(); ++i)
+        total.moments[i] += scales[i / harmonics()] * last.moments[i];
+    for (std::size_t i = 0; i < total.irradiance.size(); ++i)
+        for (int w = 0; w < lanes; ++w) {
+            const float ratio = tailRatio(last.irradiance[i][w], before.irradiance[i][w]);
+            total.irradiance[i][w] += ratio / (1 - ratio) * last.irradiance[i][w];
+        }
+    done = true;
+    return change;
+}
+
+ScatteredField::ScatteredField(std::shared_ptr<const AirRays> rays, const physics::SunTable& sun, const physics::EclipseBodies& bodies,
+                               const Orders& orders, VisibleShare visible)
+    : state_(std::make_unique<State>(std::move(rays), sun, bodies, orders, std::move(visible)))
+{
+}
+
+ScatteredField::~ScatteredField() = default;
+ScatteredField::ScatteredField(ScatteredField&&) noexcept = default;
+ScatteredField& ScatteredField::operator=(ScatteredField&&) noexcept = default;
+
+bool ScatteredField::step()
+{
+    State& s = *state_;
+    if (s.done)
+        return true;
+    if (!s.lit) {
+        s.shine();
+        return false;
+    }
+    Light light = s.gather();
+    s.before = std::move(s.last);
+    s.last = std::move(light);
+    ++s.events;
+    s.add(s.last);
+    if (!s.orders.all)
+        s.done = s.events >= s.orders.orders - 1;
+    else if (s.events >= 2)
+        s.close();
+    return s.done;
+}
+
+double ScatteredField::fractionDone() const
+{
+    const State& s = *state_;
+    if (s.done)
+        return 1;
+    const double worked = s.lit ? 0.2 + s.events : 0;
+    return s.orders.all ? 1 - std::pow(0.75, worked) : worked / (0.2 + s.orders.orders - 1);
+}
+
+int ScatteredField::events() const { return state_->events; }
+
+} // namespace sky::eclipse

@@ -1,0 +1,184 @@
+#include "eclipse/kernels.hpp"
+#include "physics/harmonics.hpp"
+#include <cmath>
+
+#if defined(__GNUC__)
+#define SKY_INLINE inline __attribute__((always_inline))
+#else
+#define SKY_INLINE inline
+#endif
+
+namespace sky::eclipse {
+
+namespace {
+
+constexpr int cosineIndex(int l, int m) { return l * (l + 1) / 2 + m; }
+constexpr int sineIndex(int degree, int l, int m) { return (degree + 1) * (degree + 2) / 2 + l * (l - 1) / 2 + m - 1; }
+
+template<int degree>
+SKY_INLINE void radiateDegree(const float* cosines, const float* sines, int azimuths, const Lane* lower, const Lane* upper, float share,
+                              const Lane* coefficients, int points, Lane* planes)
+{
+    for (int p = 0; p < points; ++p) {
+        const Lane *a = lower + p * allHarmonics(degree), *b = upper + p * allHarmonics(degree);
+        Lane even[degree + 1], odd[degree + 1]; // factors of cos(m phi), sin(m phi)
+        for (int m = 0; m <= degree; ++m)
+            even[m] = odd[m] = Lane{};
+        for (int l = 0; l <= degree; ++l)
+            for (int m = 0; m <= l; ++m) {
+                const Lane c = coefficients[cosineIndex(l, m)];
+                const int i = cosineIndex(l, m);
+                even[m] += c * (a[i] + share * (b[i] - a[i]));
+                if (m > 0) {
+                    const int k = sineIndex(degree, l, m);
+                    odd[m] += c * (a[k] + share * (b[k] - a[k]));
+                }
+            }
+        for (int q = 0; q < azimuths / 4; ++q) {
+            const float *cosine = cosines + q * (degree + 1), *sine = sines + q * (degree + 1);
+            Lane c[2] = {even[0], Lane{}}, s[2] = {Lane{}, Lane{}}; // even and odd m
+            for (int m = 1; m <= degree; ++m) {
+                c[m % 2] += cosine[m] * even[m];
+                s[m % 2] += sine[m] * odd[m];
+            }
+            Lane* out = planes + p;
+            out[q * points] = c[0] + c[1] + s[0] + s[1];
+            out[(azimuths / 2 - 1 - q) * points] = c[0] - c[1] - s[0] + s[1];
+            out[(azimuths / 2 + q) * points] = c[0] - c[1] + s[0] - s[1];
+            out[(azimuths - 1 - q) * points] = c[0] + c[1] - s[0] - s[1];
+        }
+    }
+}
+
+template<int degree>
+SKY_INLINE void projectDegree(const float* cosines, const float* sines, int azimuths, const Lane* planes, const float* factors,
+                              float solidAngle, int points, Lane* moments, Lane* rings, float cosine)
+{
+    for (int p = 0; p < points; ++p) {
+        Lane even[degree + 1], odd[degree + 1];
+        for (int m = 0; m <= degree; ++m)
+            even[m] = odd[m] = Lane{};
+        for (int q = 0; q < azimuths / 4; ++q) {
+            const Lane* in = planes + p;
+            const Lane a = in[q * points], b = in[(azimuths / 2 - 1 - q) * points];
+            const Lane c = in[(azimuths / 2 + q) * points], d = in[(azimuths - 1 - q) * points];
+            const Lane cosines2[2] = {a + b + c + d, a - b - c + d}, sines2[2] = {a - b + c - d, a + b - c - d};
+            even[0] += cosines2[0];
+            for (int m = 1; m <= degree; ++m) {
+                even[m] += cosines[q * (degree + 1) + m] * cosines2[m % 2];
+                odd[m] += sines[q * (degree + 1) + m] * sines2[m % 2];
+            }
+        }
+        Lane* out = moments + p * allHarmonics(degree);
+        for (int l = 0; l <= degree; ++l)
+            for (int m = 0; m <= l; ++m) {
+                const float y = solidAngle * factors[cosineIndex(l, m)];
+                out[cosineIndex(l, m)] += y * even[m];
+                if (m > 0)
+                    out[sineIndex(degree, l, m)] += y * odd[m];
+            }
+        if (rings)
+            rings[p] += (solidAngle * cosine) * even[0];
+    }
+}
+
+} // namespace
+
+SKY_WIDEST_VECTORS
+void radiate(const Turn& turn, const Lane* lower, const Lane* upper, float share, const Lane* coefficients, int points, Lane* planes)
+{
+    const float *c = turn.cosines.data(), *s = turn.sines.data();
+    switch (turn.degree) {
+    case 0: return radiateDegree<0>(c, s, turn.count, lower, upper, share, coefficients, points, planes);
+    case 1: return radiateDegree<1>(c, s, turn.count, lower, upper, share, coefficients, points, planes);
+    case 2: return radiateDegree<2>(c, s, turn.count, lower, upper, share, coefficients, points, planes);
+    case 3: return radiateDegree<3>(c, s, turn.count, lower, upper, share, coefficients, points, planes);
+    case 4: return radiateDegree<4>(c, s, turn.count, lower, upper, share, coefficients, points, planes);
+    case 5: return radiateDegree<5>(c, s, turn.count, lower, upper, share, coefficients, points, planes);
+    default: return radiateDegree<mostDegree>(c, s, turn.count, lower, upper, share, coefficients, points, planes);
+    }
+}
+
+SKY_WIDEST_VECTORS
+void project(const Turn& turn, const Lane* planes, const float* factors, float weight, int points, Lane* moments, Lane* rings, float cosine)
+{
+    const float *c = turn.cosines.data(), *s = turn.sines.data();
+    const float solidAngle = weight / static_cast<float>(turn.count);
+    switch (turn.degree) {
+    case 0: return projectDegree<0>(c, s, turn.count, planes, factors, solidAngle, points, moments, rings, cosine);
+    case 1: return projectDegree<1>(c, s, turn.count, planes, factors, solidAngle, points, moments, rings, cosine);
+    case 2: return projectDegree<2>(c, s, turn.count, planes, factors, solidAngle, points, moments, rings, cosine);
+    case 3: return projectDegree<3>(c, s, turn.count, planes, factors, solidAngle, points, moments, rings, cosine);
+    case 4: return projectDegree<4>(c, s, turn.count, planes, factors, solidAngle, points, moments, rings, cosine);
+    case 5: return projectDegree<5>(c, s, turn.count, planes, factors, solidAngle, points, moments, rings, cosine);
+    default: return projectDegree<mostDegree>(c, s, turn.count, planes, factors, solidAngle, points, moments, rings, cosine);
+    }
+}
+
+Shift::Shift(const Grid& from, const Grid& to, const float distance, const double azimuth)
+{
+    const auto dx = distance * static_cast<float>(std::cos(azimuth)), dy = distance * static_cast<float>(std::sin(azimuth));
+    for (const float x : to.x)
+        along.push_back(from.alongAt(x + dx));
+    for (const float y : to.y)
+        across.push_back(from.acrossAt(y + dy));
+}
+
+SKY_WIDEST_VECTORS
+void addShifted(const Shift& shift, int sourceAlong, const Lane* plane, const Lane* mirror, const Lane* weights, int addends, Lane* row,
+                Lane* sums)
+{
+    const Between* across = shift.across.data();
+    const Between* along = shift.along.data();
+    const int columns = static_cast<int>(shift.along.size()), rows = static_cast<int>(shift.across.size());
+    const int first = along[0].index, last = along[columns - 1].index + 1;
+    for (int j = 0; j < rows; ++j) {
+        const Lane* near = (across[j].mirrored ? mirror : plane) + across[j].index * sourceAlong;
+        const Lane* far = near + sourceAlong;
+        const float share = across[j].share;
+        for (int i = first; i <= last; ++i)
+            row[i] = near[i] + share * (far[i] - near[i]);
+        Lane* out = sums + j * columns;
+        if (!weights) {
+            for (int i = 0; i < columns; ++i) {
+                const Lane* at = row + along[i].index;
+                out[i] += at[0] + along[i].share * (at[1] - at[0]);
+            }
+            continue;
+        }
+        for (int i = 0; i < columns; ++i) {
+            const Lane* at = row + along[i].index;
+            const Lane value = at[0] + along[i].share * (at[1] - at[0]);
+            for (int s = 0; s < addends; ++s)
+                out[s * rows * columns + i] += weights[s] * value;
+        }
+    }
+}
+
+SKY_WIDEST_VECTORS
+void mix(const Lane* lower, const Lane* upper, float share, int points, Lane* result)
+{
+    for (int p = 0; p < points; ++p)
+        result[p] = lower[p] + share * (upper[p] - lower[p]);
+}
+
+SKY_WIDEST_VECTORS
+void scatterSunlight(int degree, int scatterers, const Lane* phase, const float* nu, const Lane* light, int points, Lane* plane)
+{
+    for (int p = 0; p < points; ++p) {
+        float legendre[mostDegree + 1] = {1, nu[p]};
+        for (int l = 1; l < degree; ++l)
+            legendre[l + 1] = (static_cast<float>(2 * l + 1) * nu[p] * legendre[l] - static_cast<float>(l) * legendre[l - 1]) /
+                              static_cast<float>(l + 1);
+        Lane sum{};
+        for (int s = 0; s < scatterers; ++s) {
+            Lane value{};
+            for (int l = 0; l <= degree; ++l)
+                value += legendre[l] * phase[s * (degree + 1) + l];
+            sum += value * light[s * points + p];
+        }
+        plane[p] = sum;
+    }
+}
+
+} // namespace sky::eclipse

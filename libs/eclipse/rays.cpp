@@ -1,0 +1,177 @@
+#include "eclipse/rays.hpp"
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "eclipse/frame.hpp"
+#include "physics/directions.hpp"
+#include "physics/harmonics.hpp"
+#include "physics/moments.hpp"
+#include "physics/table_axes.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace sky::eclipse {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+double measureOf(const physics::Planet& p, double h) { return std::sqrt(std::max(0., physics::radiusExcessSquared(p, h))); }
+
+std::vector<double> gridAltitudes(const physics::Profile& profile, const physics::Optics& optics, int count)
+{
+    std::vector<double> largest;
+    for (int s = 0; s < optics.species; ++s) {
+        const auto first = optics.extinction.begin() + s * optics.wavelengths;
+        largest.push_back(*std::max_element(first, first + optics.wavelengths));
+    }
+    return physics::MomentGrid(profile, largest, count, 2).altitudes();
+}
+
+/// Even levels for sunlight, with those of the grid among them: a layer's edges are there.
+std::vector<double> sunlightAltitudes(const physics::Planet& planet, const Levels& levels, int count)
+{
+    auto all = physics::altitudeNodes(planet, count);
+    for (int i = 0; i < levels.count(); ++i)
+        all.push_back(levels.altitude(i));
+    std::sort(all.begin(), all.end());
+    const double least = 0.2 * measureOf(planet, planet.topOfAtmosphere) / count;
+    std::vector<double> result{0};
+    for (const double h : all)
+        if (measureOf(planet, h) - measureOf(planet, result.back()) > least)
+            result.push_back(h);
+    result.back() = planet.topOfAtmosphere;
+    return result;
+}
+
+FieldSettings checked(FieldSettings s)
+{
+    if (s.azimuths < 4 || s.azimuths % 4 != 0)
+        throw RangeError("The number of azimuths of an eclipse's field is " + std::to_string(s.azimuths) +
+                         "; expected a multiple of 4.");
+    if (s.along < 2 || s.across < 2)
+        throw RangeError("The grid of an eclipse's field has " + std::to_string(s.along) + " x " + std::to_string(s.across) +
+                         " points; expected 2 x 2 or more.");
+    return s;
+}
+
+} // namespace
+
+Levels::Levels(const physics::Planet& planet, std::vector<double> altitudes) : planet_(planet), altitudes_(std::move(altitudes))
+{
+    for (const double h : altitudes_)
+        measure_.push_back(measureOf(planet_, h));
+}
+
+Place Levels::place(const double altitude, const double distance) const
+{
+    const double x = measureOf(planet_, altitude);
+    const auto above = std::upper_bound(measure_.begin(), measure_.end(), x) - measure_.begin();
+    const int k = static_cast<int>(std::clamp<std::ptrdiff_t>(above, 1, count() - 1)) - 1;
+    const double low = measure_[static_cast<std::size_t>(k)], high = measure_[static_cast<std::size_t>(k) + 1];
+    return {k, static_cast<float>(std::clamp((x - low) / (high - low), 0., 1.)), static_cast<float>(distance)};
+}
+
+AirRays::AirRays(const physics::Medium& medium_, const physics::Profile& profile_, const physics::Optics& optics_,
+                 const FieldSettings& settings_)
+    : medium(medium_), profile(profile_), optics(optics_), settings(checked(settings_)),
+      degree(std::clamp(std::min(settings_.degree, optics_.degree), 0, mostDegree)), wavelengths(optics_.wavelengths),
+      groups(groupsOf(wavelengths)), scatterers(static_cast<int>(optics_.scatterers.size())),
+      levels(profile_.planet(), gridAltitudes(profile_, optics_, settings_.altitudes)),
+      sunlightLevels(profile_.planet(), sunlightAltitudes(profile_.planet(), levels, settings_.sunlightAltitudes))
+{
+    for (int g = 0; g < groups; ++g)
+        for (const int s : optics.scatterers)
+            for (int l = 0; l <= degree; ++l) {
+                phase.emplace_back();
+                fillLane(phase.back(), &optics.moments[static_cast<std::size_t>((s * (optics.degree + 1) + l) * wavelengths)], g, wavelengths);
+                phase.back() *= static_cast<float>(2 * l + 1);
+            }
+    physics::MomentSettings quadrature;
+    quadrature.groundDirections = settings.groundDirections;
+    quadrature.limbDirections = settings.limbDirections;
+    quadrature.skyDirections = settings.skyDirections;
+    rays.resize(static_cast<std::size_t>(levels.count()));
+    base::parallel([&](int thread, int threads) {
+        physics::RayTracer tracer(profile, optics, 2);
+        for (int a = thread; a < levels.count(); a += threads) {
+            const double h = levels.altitude(a);
+            const auto directions = physics::directionsAt(profile.planet(), h, quadrature);
+            for (std::size_t d = 0; d < directions.mu.size(); ++d)
+                rays[static_cast<std::size_t>(a)].push_back(
+                    trace(tracer, h, directions.mu[d], directions.weight[d], directions.hitsGround[d]));
+        }
+    });
+}
+
+Lanes AirRays::coefficientsOf(const physics::RayNodes& ray) const
+{
+    const int harmonics = physics::harmonicCount(degree), nodes = static_cast<int>(ray.nodes.size());
+    std::vector<double> factors(static_cast<std::size_t>(harmonics)), sums(static_cast<std::size_t>(wavelengths));
+    Lanes result(static_cast<std::size_t>(groups * nodes * harmonics));
+    for (int k = 0; k < nodes; ++k) {
+        physics::harmonicFactors(degree, ray.nodes[static_cast<std::size_t>(k)].mu, factors.data());
+        for (int l = 0; l <= degree; ++l) {
+            for (int w = 0; w < wavelengths; ++w) {
+                double sum = 0;
+                for (int i = 0; i < scatterers; ++i)
+                    sum += ray.weights[static_cast<std::size_t>((k * scatterers + i) * wavelengths + w)] *
+                           optics.moment(optics.scatterers[static_cast<std::size_t>(i)], l, w);
+                sums[static_cast<std::size_t>(w)] = sum;
+            }
+            for (int g = 0; g < groups; ++g)
+                for (int m = 0; m <= l; ++m) {
+                    const int lm = physics::harmonicIndex(l, m);
+                    Lane& lane = result[static_cast<std::size_t>((g * nodes + k) * harmonics + lm)];
+                    fillLane(lane, sums.data(), g, wavelengths);
+                    lane *= static_cast<float>(factors[static_cast<std::size_t>(lm)]);
+                }
+        }
+    }
+    return result;
+}
+
+GridRay AirRays::trace(physics::RayTracer& tracer, const double altitude, const double mu, const double weight, const bool hitsGround) const
+{
+    const double radius = profile.planet().radius;
+    GridRay ray{static_cast<float>(mu), static_cast<float>(weight), hitsGround, {}, {}, {}, {}, 0, {}, {}};
+    const auto distanceOf = [&](const physics::RayNodes::Node& n) { return groundDistance(radius, n.sunScale, n.nuScale, mu); };
+
+    const auto scattered = tracer.trace(altitude, mu, settings.nodes, hitsGround);
+    for (const auto& node : scattered.nodes)
+        ray.scattered.push_back(levels.place(node.altitude, distanceOf(node)));
+    ray.coefficients = coefficientsOf(scattered);
+
+    const auto direct = tracer.trace(altitude, mu, settings.directNodes, hitsGround);
+    for (const auto& node : direct.nodes)
+        ray.direct.push_back(sunlightLevels.place(node.altitude, distanceOf(node)));
+    const std::size_t rows = static_cast<std::size_t>(settings.directNodes * scatterers);
+    ray.directWeights.resize(static_cast<std::size_t>(groups) * rows);
+    for (int g = 0; g < groups; ++g)
+        for (std::size_t i = 0; i < rows; ++i) {
+            Lane& lane = ray.directWeights[static_cast<std::size_t>(g) * rows + i];
+            fillLane(lane, &direct.weights[i * static_cast<std::size_t>(wavelengths)], g, wavelengths);
+            lane *= static_cast<float>(1 / (4 * pi));
+        }
+
+    ray.ground.resize(static_cast<std::size_t>(groups));
+    if (hitsGround) {
+        ray.groundDistance = static_cast<float>(distanceOf(direct.ground));
+        std::vector<double> reflected(static_cast<std::size_t>(wavelengths));
+        for (std::size_t w = 0; w < reflected.size(); ++w)
+            reflected[w] = direct.groundTransmittance[w] * medium.groundAlbedo[w] / pi;
+        for (int g = 0; g < groups; ++g)
+            fillLane(ray.ground[static_cast<std::size_t>(g)], reflected.data(), g, wavelengths);
+    }
+    std::vector<double> factors(static_cast<std::size_t>(physics::harmonicCount(degree)));
+    physics::harmonicFactors(degree, mu, factors.data());
+    ray.factors.assign(factors.begin(), factors.end());
+    return ray;
+}
+
+std::shared_ptr<const AirRays> traceAir(const physics::Medium& medium, const physics::Profile& profile, const physics::Optics& optics,
+                                        const FieldSettings& settings)
+{
+    return std::make_shared<const AirRays>(medium, profile, optics, settings);
+}
+
+} // namespace sky::eclipse

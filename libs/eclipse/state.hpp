@@ -1,0 +1,48 @@
+#pragma once
+#include "eclipse/kernels.hpp"
+#include "eclipse/rays.hpp"
+
+namespace sky::eclipse {
+
+/// Moments at all points of the grid, and the diffuse irradiance of the ground that goes with them.
+struct Light {
+    Lanes moments;    ///< [group][level][point][harmonic]
+    Lanes irradiance; ///< [group][point]
+};
+
+struct ScatteredField::State {
+    State(std::shared_ptr<const AirRays> rays, const physics::SunTable& sun, const physics::EclipseBodies& bodies, const Orders& orders,
+          VisibleShare visible);
+
+    std::shared_ptr<const AirRays> air;
+    const physics::SunTable& sun;
+    Orders orders;
+    VisibleShare visible;
+    Frame frame;
+    Grid grid, fine; ///< of the field; of sunlight
+    Turn turn;
+    std::vector<Vector> sunAt; ///< [point of the grid]
+    Lanes sunlight;            ///< [group][level of sunlight][point of fine]
+    Lanes sunnyGround;         ///< [group][point of fine], irradiance
+    Light last, before, total;
+    int events = 0;
+    bool lit = false, done = false;
+
+    std::size_t harmonics() const { return static_cast<std::size_t>(allHarmonics(air->degree)); }
+    std::size_t points() const { return static_cast<std::size_t>(grid.points()); }
+    std::size_t levels() const { return static_cast<std::size_t>(air->levels.count()); }
+    const Lane* momentsAt(const Light& light, int group, int level) const
+    {
+        return &light.moments[(static_cast<std::size_t>(group) * levels() + static_cast<std::size_t>(level)) * points() * harmonics()];
+    }
+
+    void shine();           ///< sunlight at all points
+    Light gather() const;   ///< the light of the next event
+    void gatherLevel(int level, int group, Light& light) const;
+    void directRay(const GridRay& ray, int group, struct Scratch& scratch) const;
+    void scatteredRay(const GridRay& ray, int group, struct Scratch& scratch) const;
+    void add(const Light& light);
+    double close();         ///< adds the tail of the series; returns the largest relative change since the last estimate
+};
+
+} // namespace sky::eclipse
