@@ -27,13 +27,15 @@ struct Atmosphere {
     std::string name;
     physics::Medium medium;
     int orders = 0; ///< as computed; 0: all
+    EclipseScale eclipse;
 };
 
 Atmosphere readModel(const std::string& directory)
 {
     const model::Model file = model::Model::open(directory);
     const auto& manifest = file.manifest();
-    return {manifest.name, model::readMedium(file), manifest.allScatteringOrders ? 0 : manifest.scatteringOrders};
+    return {manifest.name, model::readMedium(file), manifest.allScatteringOrders ? 0 : manifest.scatteringOrders,
+            {manifest.moonRadius, manifest.sunDistance}};
 }
 
 Atmosphere readDescription(const std::string& path, const gl::HeadlessOptions& openGl, Reporter& reporter)
@@ -42,7 +44,8 @@ Atmosphere readDescription(const std::string& path, const gl::HeadlessOptions& o
     const gl::HeadlessContext context(openGl);
     std::vector<std::string> warnings;
     Atmosphere result{{}, solver::evaluateMedium(description, context.api(), warnings),
-                      description.allScatteringOrders ? 0 : description.scatteringOrders};
+                      description.allScatteringOrders ? 0 : description.scatteringOrders,
+                      {description.moonRadius, description.sunDistance}};
     for (const std::string& sentence : warnings)
         reporter.warning(sentence);
     return result;
@@ -55,7 +58,7 @@ public:
     {
         CLI::App* sub = app.add_subcommand("reference", "Compute sky radiances by Monte Carlo, slowly and independently");
         sub->add_option("atmosphere", atmosphere_, "A model's directory, or a .atmo file")->option_text("DIR|FILE");
-        sub->add_option("queries", queries_, "CSV: altitude_m, sza_deg, vza_deg, relaz_deg, lambda_nm")
+        sub->add_option("queries", queries_, "CSV: altitude_m, sza_deg, vza_deg, relaz_deg, lambda_nm; for eclipses moon_zenith_deg,\nmoon_azimuth_deg, earth_moon_distance_m")
             ->option_text("QUERIES.csv");
         sub->add_option("--grid", grid_, "default: the places that verify looks at, in place of a file")
             ->option_text("NAME");
@@ -96,7 +99,7 @@ public:
         if (atmosphere.name.empty())
             atmosphere.name = nameFromPath();
         settings.orders = orders_.empty() ? atmosphere.orders : orders_ == "all" ? 0 : readInteger("--orders", orders_, 1, 1000);
-        const std::vector<montecarlo::Query> queries = readAllQueries(atmosphere.medium);
+        const std::vector<montecarlo::Query> queries = readAllQueries(atmosphere);
         const montecarlo::Reference reference(atmosphere.medium);
         reporter->stage("reference", 0.01);
         const auto results = judge(reference, queries, settings, [&](double f) { reporter->advance(0.01 + 0.99 * f); });
@@ -117,19 +120,19 @@ private:
         return name;
     }
 
-    std::vector<montecarlo::Query> readAllQueries(const physics::Medium& medium) const
+    std::vector<montecarlo::Query> readAllQueries(const Atmosphere& atmosphere) const
     {
         constexpr int rowsPerCell = 12;
         std::vector<montecarlo::Query> queries;
         if (queries_.empty()) {
-            for (const Sample& sample : sampleSky(medium, rowsPerCell))
+            for (const Sample& sample : sampleSky(atmosphere.medium, rowsPerCell))
                 queries.push_back(sample.query);
             return queries;
         }
         std::ifstream file(queries_);
         if (!file)
             throw FileError("Can't read `" + queries_ + "`.");
-        return readQueries(file, queries_, medium.wavelengthsNm);
+        return readQueries(file, queries_, atmosphere.medium.wavelengthsNm, atmosphere.eclipse);
     }
 
     void write(const std::vector<montecarlo::Row>& rows, const std::vector<double>& wavelengthsNm) const

@@ -5,6 +5,7 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <thread>
 
 namespace sky::montecarlo
@@ -21,19 +22,22 @@ std::uint64_t streamSeed(const Query& query, std::uint64_t seed)
     std::uint64_t hash = scramble(seed);
     for (const double x : {query.altitude, query.sunZenithAngle, query.viewZenithAngle, query.relativeAzimuth})
         hash = scramble(hash ^ std::bit_cast<std::uint64_t>(x));
+    if (query.moon)
+        for (const double x : {query.moon->zenithAngle, query.moon->relativeAzimuth, query.moon->distance})
+            hash = scramble(hash ^ std::bit_cast<std::uint64_t>(x));
     return scramble(hash ^ static_cast<std::uint64_t>(query.wavelength));
 }
 
 /// Computes means[from ..] on several threads. Which thread takes which batch makes no difference.
-void runBatches(const Air& air, const Scene& scene, Orders orders, std::uint64_t seed, int threads,
-                std::vector<double>& means, std::size_t from)
+void runBatches(const std::function<BatchMean()>& make, std::uint64_t seed, int threads, std::vector<double>& means,
+                std::size_t from)
 {
     std::atomic<std::size_t> next{from};
     const auto work = [&] {
-        PathTracer tracer(air, scene, orders);
+        const BatchMean batchMean = make();
         for (std::size_t i; (i = next++) < means.size();) {
             Random random(seed, i);
-            means[i] = tracer.batchMean(random, pathsPerBatch);
+            means[i] = batchMean(random, pathsPerBatch);
         }
     };
     std::vector<std::jthread> others;
@@ -46,6 +50,16 @@ void runBatches(const Air& air, const Scene& scene, Orders orders, std::uint64_t
 
 void addPaths(const Air& air, const Scene& scene, Orders orders, const Query& query, const Settings& settings,
               Result& result)
+{
+    const auto make = [&]() -> BatchMean {
+        return [tracer = std::make_shared<PathTracer>(air, scene, orders)](Random& random, int paths) {
+            return tracer->batchMean(random, paths);
+        };
+    };
+    runPaths(make, query, settings, result);
+}
+
+void runPaths(const std::function<BatchMean()>& make, const Query& query, const Settings& settings, Result& result)
 {
     using Clock = std::chrono::steady_clock;
     const auto start = Clock::now();
@@ -60,7 +74,7 @@ void addPaths(const Air& air, const Scene& scene, Orders orders, const Query& qu
         const std::int64_t round =
             settings.maxSeconds > 0 ? std::min(wanted - have, std::max(firstBatches, have / 4)) : wanted - have;
         means.resize(static_cast<std::size_t>(have + round));
-        runBatches(air, scene, orders, streamSeed(query, settings.seed), threads, means,
+        runBatches(make, streamSeed(query, settings.seed), threads, means,
                    static_cast<std::size_t>(have));
 
         const double count = static_cast<double>(means.size());

@@ -49,6 +49,9 @@ void PathTracer::prepare(const Place& place, Vec direction, const Ray& ray, cons
     const double upSun = (radius + place.altitude) * dot(place.up, scene_.sun.centre());
     const double alongSun = dot(direction, scene_.sun.centre());
     const auto muSunAt = [&](double s) { return (upSun + s * alongSun) / std::sqrt(radius * radius + ray.at(s)); };
+    const auto bright = [&](double s) {
+        return scene_.eclipse ? scene_.eclipse->guess((radius + place.altitude) * place.up + s * direction) : 1.0;
+    };
     // Here `cumulative` holds the plain chance of each event and `weight` the guide's factor.
     choice.cumulative.clear();
     choice.weight.clear();
@@ -60,14 +63,15 @@ void PathTracer::prepare(const Place& place, Vec direction, const Ray& ray, cons
         guided += chance * factor;
     };
     for (const Segment& segment : leg.segments) {
-        const double muSun = muSunAt(0.5 * (segment.begin + segment.end));
-        add(-transmittance * std::expm1(-segment.opticalDepth), air_.guide()(segment.shell, muSun));
+        const double middle = 0.5 * (segment.begin + segment.end);
+        add(-transmittance * std::expm1(-segment.opticalDepth),
+            air_.guide()(segment.shell, muSunAt(middle)) * bright(middle));
         transmittance *= std::exp(-segment.opticalDepth);
     }
     if (leg.hitsGround && groundAlbedo > 0) {
         // Sunlight leaves the ground as mu / pi, the air as about 1 / (4 pi).
         const double muSun = muSunAt(leg.length);
-        add(transmittance * groundAlbedo, 4 * std::max(0.0, muSun) * air_.guide()(0, muSun));
+        add(transmittance * groundAlbedo, 4 * std::max(0.0, muSun) * air_.guide()(0, muSun) * bright(leg.length));
     }
     choice.possible = plain > 0;
     if (!choice.possible)
@@ -106,23 +110,31 @@ bool PathTracer::advance(Place& place, Vec direction, const Ray& ray, const Leg&
     return false;
 }
 
-double PathTracer::sunlightAtAir(const Place& place, Vec direction, const Local& local, Random& random) const
+std::optional<Vec> PathTracer::sunPoint(const Place& place, Random& random) const
 {
     const double u1 = random.uniform(), u2 = random.uniform();
-    const Vec sun = scene_.sun.point(u1, u2);
-    const double t = air_.transmittance(place, sun);
-    return t > 0 ? t * air_.scatteredAt(local, angleBetween(sun, direction)) / local.extinction : 0;
+    if (!scene_.eclipse)
+        return scene_.sun.point(u1, u2);
+    const Vec position = (air_.profile().planetRadius() + place.altitude) * place.up;
+    const Vec point = scene_.eclipse->sunFrom(position).point(u1, u2);
+    return scene_.eclipse->hides(position, point) ? std::nullopt : std::optional(point);
+}
+
+double PathTracer::sunlightAtAir(const Place& place, Vec direction, const Local& local, Random& random) const
+{
+    const std::optional<Vec> sun = sunPoint(place, random);
+    const double t = sun ? air_.transmittance(place, *sun) : 0;
+    return t > 0 ? t * air_.scatteredAt(local, angleBetween(*sun, direction)) / local.extinction : 0;
 }
 
 double PathTracer::sunlightAtGround(const Place& place, Random& random) const
 {
-    const double u1 = random.uniform(), u2 = random.uniform();
-    const Vec sun = scene_.sun.point(u1, u2);
-    const double mu = dot(place.up, sun);
-    return mu > 0 ? mu / pi * air_.transmittance(place, sun) : 0;
+    const std::optional<Vec> sun = sunPoint(place, random);
+    const double mu = sun ? dot(place.up, *sun) : 0;
+    return mu > 0 ? mu / pi * air_.transmittance(place, *sun) : 0;
 }
 
-Vec PathTracer::scattered(Vec direction, const Local& local, double u1, double u2, double& weight) const
+Vec scatteredDirection(const Air& air, Vec direction, const Local& local, double u1, double u2, double& weight)
 {
     weight *= local.bright / local.extinction;
     if (!(local.bright > 0))
@@ -132,7 +144,7 @@ Vec PathTracer::scattered(Vec direction, const Local& local, double u1, double u
     std::size_t last = local.scattering.size();
     double share = 0;
     for (std::size_t i = 0; i < local.scattering.size(); ++i) {
-        const double next = local.scattering[i] * air_.phase(i).integral();
+        const double next = local.scattering[i] * air.phase(i).integral();
         if (next <= 0)
             continue;
         if (last < local.scattering.size()) {
@@ -143,7 +155,7 @@ Vec PathTracer::scattered(Vec direction, const Local& local, double u1, double u
         last = i;
         share = next;
     }
-    const PhaseTable::Sample sample = air_.phase(last).sample(std::clamp(target / share, 0.0, 1.0));
+    const PhaseTable::Sample sample = air.phase(last).sample(std::clamp(target / share, 0.0, 1.0));
     weight *= sample.weight;
     return turned(direction, std::cos(sample.angle), std::sin(sample.angle), 2 * pi * u2);
 }
@@ -173,7 +185,7 @@ double PathTracer::path(Random& random, const Decisions& decisions)
         if (onGround) // Lambert's law: the sine squared is uniform. The albedo is in the weight already.
             direction = turned(place.up, std::sqrt(1 - u1), std::sqrt(u1), 2 * pi * u2);
         else
-            direction = scattered(direction, local_, u1, u2, weight);
+            direction = scatteredDirection(air_, direction, local_, u1, u2, weight);
         if (!(weight > 0))
             return radiance;
 

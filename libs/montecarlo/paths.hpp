@@ -16,6 +16,9 @@ struct Orders {
     int last = 0;
 };
 
+/// A random direction after a scattering of light that travels along `direction`; multiplies `weight` by the share that is scattered.
+Vec scatteredDirection(const Air& air, Vec direction, const Local& local, double u1, double u2, double& weight);
+
 /// Estimates the radiance that a camera sees from scattered light. Not for use by two threads at once: it keeps scratch
 /// space; the results depend on the random stream alone.
 class PathTracer
@@ -42,9 +45,10 @@ private:
     bool advance(Place& place, Vec direction, const Ray& ray, const Leg& leg, const Choice& choice, double u,
                  double& weight) const;
     double path(Random& random, const Decisions& decisions);
+    /// A point of the solar disc as a place sees it; nothing where the Moon hides it.
+    std::optional<Vec> sunPoint(const Place& place, Random& random) const;
     double sunlightAtAir(const Place& place, Vec direction, const Local& local, Random& random) const;
     double sunlightAtGround(const Place& place, Random& random) const;
-    Vec scattered(Vec direction, const Local& local, double u1, double u2, double& weight) const;
 
     const Air& air_;
     Scene scene_;

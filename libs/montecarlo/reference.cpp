@@ -12,24 +12,18 @@ namespace sky::montecarlo
 namespace
 {
 
-/// The scene seen from where the line of sight enters the atmosphere; nothing if it misses it.
-std::optional<Scene> sceneOf(const physics::Medium& medium, const Query& query)
+/// Unit vector of a zenith angle and an azimuth from the Sun's.
+Vec directionOf(double zenithAngle, double relativeAzimuth)
 {
-    const Vec sun{std::sin(query.sunZenithAngle), 0, std::cos(query.sunZenithAngle)};
-    const double sine = std::sin(query.viewZenithAngle);
-    Scene scene{{query.altitude, {0, 0, 1}},
-                normalized({sine * std::cos(query.relativeAzimuth), sine * std::sin(query.relativeAzimuth),
-                            std::cos(query.viewZenithAngle)}),
-                SunDisc(sun, medium.sunAngularRadius)};
-    if (query.altitude > medium.topOfAtmosphere) {
-        const Ray ray = rayFrom(medium.planetRadius, scene.camera, scene.view);
-        const double top = radialSquare(medium.planetRadius, medium.topOfAtmosphere);
-        if (ray.b >= 0 || ray.lowest() >= top)
-            return std::nullopt;
-        scene.camera = moved(medium.planetRadius, scene.camera, scene.view, ray, ray.down(top));
-        scene.camera.altitude = medium.topOfAtmosphere;
-    }
-    return scene;
+    const double sine = std::sin(zenithAngle);
+    return {sine * std::cos(relativeAzimuth), sine * std::sin(relativeAzimuth), std::cos(zenithAngle)};
+}
+
+/// A body at a distance from the planet's centre that the camera, at radius r above it, sees in a direction.
+Vec bodyAt(Vec direction, double distance, double r)
+{
+    const double b = r * direction.z;
+    return Vec{0, 0, r} + (std::sqrt(b * b + (distance - r) * (distance + r)) - b) * direction;
 }
 
 /// Throws RangeError with the parts as one sentence unless the condition holds.
@@ -76,6 +70,28 @@ bool increasing(const std::vector<double>& nodes)
 
 } // namespace
 
+std::optional<Scene> sceneOf(const physics::Medium& medium, const Query& query)
+{
+    const Vec sun = directionOf(query.sunZenithAngle, 0);
+    Scene scene{{query.altitude, {0, 0, 1}},
+                normalized(directionOf(query.viewZenithAngle, query.relativeAzimuth)),
+                SunDisc(sun, medium.sunAngularRadius)};
+    if (query.moon) {
+        const double r = medium.planetRadius + query.altitude;
+        const Vec moon = bodyAt(directionOf(query.moon->zenithAngle, query.moon->relativeAzimuth), query.moon->distance, r);
+        scene.eclipse.emplace(bodyAt(sun, query.moon->sunDistance, r), moon, query.moon->radius, medium.sunAngularRadius);
+    }
+    if (query.altitude > medium.topOfAtmosphere) {
+        const Ray ray = rayFrom(medium.planetRadius, scene.camera, scene.view);
+        const double top = radialSquare(medium.planetRadius, medium.topOfAtmosphere);
+        if (ray.b >= 0 || ray.lowest() >= top)
+            return std::nullopt;
+        scene.camera = moved(medium.planetRadius, scene.camera, scene.view, ray, ray.down(top));
+        scene.camera.altitude = medium.topOfAtmosphere;
+    }
+    return scene;
+}
+
 Result scaled(const Result& result, double solarIrradiance)
 {
     Result r = result;
@@ -119,6 +135,15 @@ void Reference::check(const Query& query) const
     require(std::isfinite(query.sunZenithAngle) && std::isfinite(query.viewZenithAngle) &&
                 std::isfinite(query.relativeAzimuth),
             "sun zenith angle, view zenith angle and relative azimuth: expected finite values");
+    if (!query.moon)
+        return;
+    const MoonPlace& moon = *query.moon;
+    require(std::isfinite(moon.zenithAngle) && std::isfinite(moon.relativeAzimuth),
+            "zenith angle and azimuth of the Moon: expected finite values");
+    const double highest = medium_.planetRadius + std::max(medium_.topOfAtmosphere, query.altitude);
+    require(moon.radius > 0 && moon.distance > highest + moon.radius && moon.sunDistance > moon.distance,
+            "The Moon, ", moon.distance, " m from the planet's centre: expected more than ", highest + moon.radius,
+            " m, which keeps it clear of the air and of the camera, and less than the Sun's distance");
 }
 
 Result Reference::radiance(const Query& query, const Settings& settings) const

@@ -9,6 +9,7 @@
 #include <iosfwd>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,16 @@ namespace sky::montecarlo
 {
 
 class Air;
+struct GroundDisc; // ground_light.hpp
+
+/// Where the Moon stands, seen from the camera, and what an eclipse needs beside. SI, radians.
+struct MoonPlace {
+    double zenithAngle = 0;
+    double relativeAzimuth = 0; ///< minus that of the Sun, counted as Query::relativeAzimuth
+    double distance = 0;        ///< from the planet's centre
+    double radius = 0;
+    double sunDistance = 0;     ///< from the planet's centre
+};
 
 /// Where the camera stands, where the Sun is and where the camera looks. SI, radians.
 struct Query {
@@ -24,6 +35,7 @@ struct Query {
     double viewZenithAngle = 0; ///< 0 up, pi/2 horizontal
     double relativeAzimuth = 0; ///< of the view minus that of the Sun: 0 = towards the Sun
     int wavelength = 0;         ///< index into Medium::wavelengthsNm
+    std::optional<MoonPlace> moon{}; ///< none: no eclipse
 };
 
 struct Settings {
@@ -52,6 +64,14 @@ struct Result {
 /// `result` times the solar irradiance (W m^-2 nm^-1): W m^-2 sr^-1 nm^-1.
 Result scaled(const Result& result, double solarIrradiance);
 
+/// Light of a ground whose own radiance is 1, as a share of it.
+struct GroundLight {
+    double direct = 0;          ///< the ground itself in direct view, dimmed by the air in between
+    double scattered = 0;       ///< all light whose last event is in the air (up to Settings::orders)
+    double scatteredStderr = 0; ///< one standard error of `scattered`
+    std::int64_t paths = 0;
+};
+
 /// The judge of one medium. Prepares a wavelength when it is first asked for; safe to share between threads.
 class Reference
 {
@@ -68,6 +88,9 @@ public:
 
     /// Order 1 by random paths: checks the quadrature that radiance() uses. In Result::multiple.
     Result singleByPaths(const Query& query, const Settings& settings) const;
+
+    /// Light of a glowing ground, or of a glowing disc on it. The Sun plays no part. Settings::relativeError is that of `scattered`.
+    GroundLight groundLight(const Query& query, const std::optional<GroundDisc>& disc, const Settings& settings) const;
 
 private:
     struct Slot {
@@ -91,6 +114,7 @@ struct Row {
 
 /// Writes rows under the header
 /// atmosphere,orders,altitude_m,sza_deg,vza_deg,relaz_deg,lambda_nm,L1_per_sr,Lms_per_sr,Lms_stderr,L0_per_sr
+/// and, if any row has a Moon, moon_zenith_deg,moon_azimuth_deg,earth_moon_distance_m;
 /// with orders "all" for 0. `wavelengthsNm` is that of the medium.
 void writeCsv(std::ostream& out, const std::vector<Row>& rows, const std::vector<double>& wavelengthsNm);
 

@@ -34,7 +34,7 @@ double integrate(const Air& air, const Scene& scene, const Leg& leg, int halving
                 const Place place = moved(radius, scene.camera, scene.view, ray, s);
                 air.at(place.altitude, local);
                 const double depth = depthBefore + profile.partialDepth(ray, segment, s);
-                const double source = scene.sun.average(radius, place, across, along, [&](Vec sun) {
+                const double source = averageSun(scene, radius, place, across, along, [&](Vec sun) {
                     return air.transmittance(place, sun) * air.scatteredAt(local, angleBetween(sun, scene.view));
                 });
                 sum += 0.5 * step * steps.weight[k] * std::exp(-depth) * source;
@@ -67,7 +67,7 @@ double groundDirect(const Air& air, const Scene& scene, const Leg& leg)
     Place ground = moved(radius, scene.camera, scene.view, ray, leg.length);
     ground.altitude = 0;
     const Rule rule = gaussLegendre(24);
-    const double irradiance = scene.sun.average(radius, ground, rule, rule, [&](Vec sun) {
+    const double irradiance = averageSun(scene, radius, ground, rule, rule, [&](Vec sun) {
         return std::max(0.0, dot(ground.up, sun)) * air.transmittance(ground, sun);
     });
     return air.groundAlbedo() / std::numbers::pi * std::exp(-leg.opticalDepth) * irradiance;

@@ -2,7 +2,10 @@
 // What needs no random numbers: light scattered once, and the ground in direct view.
 
 #include "montecarlo/air.hpp"
+#include "montecarlo/moon.hpp"
 #include "montecarlo/sun.hpp"
+
+#include <optional>
 
 namespace sky::montecarlo
 {
@@ -12,12 +15,21 @@ struct Scene {
     Place camera;
     Vec view{0, 0, 1};
     SunDisc sun;
+    std::optional<Eclipse> eclipse{};
 };
 
 struct Integral {
     double value = 0;
     double error = 0; ///< change when all steps were halved for the last time
 };
+
+/// Average of f(direction) over what a place sees of the solar disc.
+template<class F>
+double averageSun(const Scene& scene, double planetRadius, const Place& place, const Rule& across, const Rule& along, F&& f)
+{
+    return scene.eclipse ? scene.eclipse->average(planetRadius, place, along, f)
+                         : scene.sun.average(planetRadius, place, across, along, f);
+}
 
 /// Radiance of sunlight scattered exactly once in the air, per unit solar irradiance, 1/sr.
 ///   error   below 5e-5 relative, or what Integral::error says where the shadow's edge defeats the steps

@@ -154,19 +154,29 @@ TEST_CASE("judge: rows are as noisy as asked, or share the time")
 TEST_CASE("queries: columns in any order, a table of results can be asked again, mistakes are named")
 {
     const std::vector<double> wavelengths{391.333, 485.333};
+    const EclipseScale scale{1737.4e3, 1.5e11};
     std::istringstream good("lambda_nm,note,altitude_m,sza_deg,vza_deg,relaz_deg\n485.333,x,2000,95,89.5,180\r\n\n");
-    const auto queries = readQueries(good, "q.csv", wavelengths);
+    const auto queries = readQueries(good, "q.csv", wavelengths, scale);
     REQUIRE(queries.size() == 1);
     CHECK(queries[0].altitude == 2000);
     CHECK(queries[0].sunZenithAngle == Approx(95 * degree));
     CHECK(queries[0].viewZenithAngle == Approx(89.5 * degree));
     CHECK(queries[0].relativeAzimuth == Approx(std::numbers::pi));
     CHECK(queries[0].wavelength == 1);
+    CHECK_FALSE(queries[0].moon.has_value());
+    std::istringstream eclipse("lambda_nm,altitude_m,sza_deg,vza_deg,relaz_deg,moon_zenith_deg,moon_azimuth_deg,earth_moon_distance_m\n"
+                               "485.333,0,40,30,20,40.1,-0.2,371925e3\n485.333,0,40,30,20,,,\n");
+    const auto moons = readQueries(eclipse, "q.csv", wavelengths, scale);
+    REQUIRE((moons.size() == 2 && moons[0].moon && !moons[1].moon));
+    CHECK(moons[0].moon->zenithAngle == Approx(40.1 * degree));
+    CHECK(moons[0].moon->relativeAzimuth == Approx(-0.2 * degree));
+    CHECK(moons[0].moon->distance == 371925e3);
+    CHECK(moons[0].moon->radius == 1737.4e3);
     const std::string header = "altitude_m,sza_deg,vza_deg,relaz_deg,lambda_nm\n";
     const auto complaint = [&](const std::string& text) {
         std::istringstream file(text);
         try {
-            readQueries(file, "q.csv", wavelengths);
+            readQueries(file, "q.csv", wavelengths, scale);
         } catch (const UsageError& error) {
             return std::string(error.what());
         }
@@ -175,6 +185,7 @@ TEST_CASE("queries: columns in any order, a table of results can be asked again,
     CHECK_THAT(complaint("altitude_m,sza_deg,vza_deg,lambda_nm\n"), Contains("q.csv:1: there is no column `relaz_deg`"));
     CHECK_THAT(complaint(header + "0,10,20,30,400\n"), Contains("q.csv:2: ") && Contains("391.333, 485.333"));
     CHECK_THAT(complaint(header + "0,10,20,30,391.333\n0,ten,20,30,391.333\n"), Contains("q.csv:3: sza_deg is `ten`"));
+    CHECK_THAT(complaint("moon_zenith_deg," + header), Contains("needs all of moon_zenith_deg, moon_azimuth_deg"));
     CHECK_THAT(complaint(header + "0,10\n"), Contains("vza_deg is ``"));
     CHECK_THAT(complaint(header + "-5,10,20,30,391.333\n"), Contains("altitude_m is negative"));
 }
