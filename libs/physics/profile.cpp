@@ -69,6 +69,33 @@ Profile::Profile(const Medium& medium, const double tolerance)
     }
 }
 
+Profile Profile::withShellsAt(const std::vector<double>& altitudes) const
+{
+    const double closest = 1e-7 * planet_.topOfAtmosphere; // to a shell that is there
+    Profile finer = *this;
+    finer.shells_ = {shells_.front()};
+    finer.segments_.clear();
+    finer.steepness_.clear();
+    for (size_t k = 0; k + 1 < shells_.size(); ++k) {
+        std::vector<double> ends;
+        for (const double h : altitudes)
+            if (h > shells_[k] + closest && h < shells_[k + 1] - closest)
+                ends.push_back(h);
+        std::sort(ends.begin(), ends.end());
+        ends.push_back(shells_[k + 1]);
+        for (const double end : ends) {
+            for (int s = 0; s < species_; ++s) {
+                Segment segment = segments_[k * species_ + s];
+                segment.start += segment.slope * (finer.shells_.back() - shells_[k]);
+                finer.segments_.push_back(segment);
+            }
+            finer.steepness_.push_back(steepness_[k]);
+            finer.shells_.push_back(end);
+        }
+    }
+    return finer;
+}
+
 int Profile::intervalAt(const double altitude) const
 {
     const auto above = std::upper_bound(shells_.begin(), shells_.end(), altitude) - shells_.begin();

@@ -13,6 +13,9 @@ public:
     /// \param tolerance relative deviation allowed between the shells, where a species matters at all
     explicit Profile(const Medium& medium, double tolerance = 3e-4);
 
+    /// The same densities with more shells, at these altitudes: where a field bends more than the air does.
+    Profile withShellsAt(const std::vector<double>& altitudes) const;
+
     const Planet& planet() const { return planet_; }
     int speciesCount() const { return species_; }
     /// Shell altitudes, m, increasing, 0 .. top. Two very close ones enclose a jump.

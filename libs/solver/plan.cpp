@@ -1,4 +1,5 @@
 #include "solver/plan.hpp"
+#include "solver/light_pollution.hpp"
 #include <algorithm>
 
 namespace sky::solver {
@@ -45,8 +46,11 @@ Needs needsOf(const atmo::Description& d, const Options& options)
     decide(n.single, Part::Single, scatters && lit, dark);
     decide(n.moments, Part::Moments, scatters && lit && several, several ? dark : "a single order needs no moments");
     decide(n.multiple, Part::Multiple, scatters && lit && several, several ? dark : "only one order of scattering was asked for");
-    for (const Part later : {Part::LightPollution, Part::Eclipsed})
-        n.skipped.push_back({nameOf(later), "this version does not compute it"});
+    std::vector<std::string> ignored;
+    decide(n.lightPollution, Part::LightPollution, !glowSpectrum(d, ignored).empty(),
+           d.lightPollutionRadiance.empty() ? "the description gives no `light pollution relative radiance`"
+                                            : "the ground gives no visible light");
+    n.skipped.push_back({nameOf(Part::Eclipsed), "this version does not compute it"});
     n.everyEvent = scatters && lit && several &&
                    (options.saveScatteringDensity || options.saveScatteringDensity2FromGround || options.saveDeltaScattering ||
                     options.saveAccumulatedScattering);
@@ -72,6 +76,9 @@ Work workOf(const atmo::Description& d, const Options& options, const Needs& nee
         w.single = points * 40 * quality / directVisits;
     if (needs.multiple)
         w.multiple = points * 14 * quality / scatteredVisits;
+    if (needs.lightPollution)
+        w.lightPollution = (0.08 + 5e-6 * d.lightPollutionSize.altitude * d.lightPollutionSize.zenithAngle) * sets *
+                           (options.saveLightPollution ? 8 : 1);
     if (needs.everyEvent)
         w.debugging = events * (options.saveDeltaScattering + options.saveAccumulatedScattering) * points * 14 * quality / scatteredVisits;
     w.writing = 0.05;
@@ -110,6 +117,13 @@ std::vector<PlanItem> plan(const atmo::Description& d, const Options& options)
         items.push_back({"multiple-scattering", true, options.radiance ? "as spectral radiance" : "as XYZ and scotopic luminance",
                          size(50e6 + layer * (options.radiance ? sets : 1)),
                          size(points * bytes * compressed * (options.radiance ? d.wavelengths.count : 4)), work.multiple});
+    if (needs.lightPollution) {
+        const double texels = double(d.lightPollutionSize.altitude) * d.lightPollutionSize.zenithAngle;
+        items.push_back({"light-pollution", true,
+                         options.radiance ? "as spectral radiance, all orders" : "as XYZ and scotopic luminance, all orders",
+                         size(20e6 + 4e6 * sets), size(texels * 4 * compressed * (options.radiance ? d.wavelengths.count : 4)),
+                         work.lightPollution});
+    }
     for (const auto& s : needs.skipped)
         items.push_back({s.what, false, s.why, 0, 0, 0});
     return items;

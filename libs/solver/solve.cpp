@@ -7,6 +7,7 @@
 #include "model/moment_tables.hpp"
 #include "solver/bake.hpp"
 #include "solver/debug_tables.hpp"
+#include "solver/light_pollution.hpp"
 #include "solver/medium_tables.hpp"
 #include "solver/plan.hpp"
 #include "physics/table_axes.hpp"
@@ -55,7 +56,6 @@ model::Manifest describe(const atmo::Description& description, const Options& op
     manifest.sunDistance = description.sunDistance;
     manifest.moonDistance = description.moonDistance;
     manifest.moonRadius = description.moonRadius;
-    manifest.lightPollutionRadiance = description.lightPollutionRadiance;
     for (std::size_t s = 0; s < description.scatterers.size(); ++s) {
         const auto type = description.scatterers[s].phaseFunctionType;
         manifest.species[s].phaseFunctionType = type == atmo::PhaseFunctionType::General      ? "general"
@@ -84,11 +84,11 @@ void solve(const atmo::Description& description, const Options& options, gl::Hea
     auto breath = stages.begin("medium", stages.work().medium);
     std::vector<std::string> warnings;
     const physics::Medium medium = evaluateMedium(description, api, warnings);
-    if (options.saveLightPollution)
-        warnings.push_back("--save-light-pollution has no effect yet: this version computes no light pollution.");
+    const auto glow = glowSpectrum(description, warnings);
     for (const auto& sentence : warnings)
         progress.warning(sentence);
     model::Manifest manifest = describe(description, options, medium);
+    manifest.lightPollutionRadiance = glow;
     manifest.warnings = warnings;
     manifest.skipped = needs.skipped;
     model::writeMedium(writer, medium);
@@ -135,6 +135,10 @@ void solve(const atmo::Description& description, const Options& options, gl::Hea
     if (needs.multiple) {
         breath = stages.begin("multiple scattering", stages.work().multiple);
         bakeMultipleScattering(api, job, field.total, "multiple-scattering", writer, breath);
+    }
+    if (needs.lightPollution) {
+        breath = stages.begin("light pollution", stages.work().lightPollution);
+        bakeLightPollution(description, options, medium, glow, writer, manifest, breath);
     }
     if (needs.everyEvent) {
         breath = stages.begin("debugging tables", stages.work().debugging);

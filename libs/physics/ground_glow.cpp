@@ -1,0 +1,299 @@
+#include "physics/ground_glow.hpp"
+#include "base/parallel.hpp"
+#include "physics/directions.hpp"
+#include "physics/harmonics.hpp"
+#include "physics/series.hpp"
+#include "physics/table_axes.hpp"
+#include <cmath>
+
+namespace sky::physics {
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+/// Zenith-angle factors of Y_l0.
+void zonalFactors(int degree, double mu, double* factors)
+{
+    legendre(degree, mu, factors);
+    for (int l = 0; l <= degree; ++l)
+        factors[l] *= std::sqrt((2 * l + 1) / (4 * pi));
+}
+
+/// The sum over scatterers of weight times lambda_l, times Y_l0: what the moments at node k of a ray are multiplied by.
+///   result  [l][wavelength]
+void nodeCoefficients(const Optics& optics, const RayNodes& ray, int k, double* result)
+{
+    const int wavelengths = optics.wavelengths, scatterers = static_cast<int>(optics.scatterers.size());
+    std::vector<double> factors(optics.degree + 1);
+    zonalFactors(optics.degree, ray.nodes[k].mu, factors.data());
+    std::fill(result, result + (optics.degree + 1) * wavelengths, 0.);
+    for (int i = 0; i < scatterers; ++i) {
+        const double* weight = &ray.weights[(k * scatterers + i) * wavelengths];
+        const double* lambda = &optics.moments[optics.scatterers[i] * (optics.degree + 1) * wavelengths];
+        for (int l = 0; l <= optics.degree; ++l)
+            for (int w = 0; w < wavelengths; ++w)
+                result[l * wavelengths + w] += factors[l] * weight[w] * lambda[l * wavelengths + w];
+    }
+}
+
+/// A field as sums, before logarithms.
+struct Sums {
+    std::vector<double> moments;    // [altitude][l][wavelength]
+    std::vector<double> irradiance; // [wavelength], downward at the ground
+};
+
+GlowMoments asMoments(const MomentGrid& grid, int degree, int wavelengths, const Sums& sums)
+{
+    GlowMoments m{grid, degree, wavelengths, sums.moments, sums.irradiance};
+    for (int a = 0; a < grid.altitudeCount(); ++a) {
+        double* v = &m.values[size_t(a) * (degree + 1) * wavelengths];
+        for (int w = 0; w < wavelengths; ++w) {
+            const double whole = std::max(v[w], darkness);
+            for (int l = 1; l <= degree; ++l)
+                v[l * wavelengths + w] /= whole;
+            v[w] = std::log(whole);
+        }
+    }
+    return m;
+}
+
+/// The rays of every level, traced once for all events, and what each event does with them.
+class Sweeps
+{
+public:
+    Sweeps(const Medium& medium, const Profile& profile, const Optics& optics, const MomentGrid& grid, const GlowSettings& settings)
+        : medium_(medium), optics_(optics), grid_(grid), levels_(grid.altitudeCount())
+    {
+        MomentSettings directions;
+        directions.groundDirections = settings.groundDirections;
+        directions.limbDirections = settings.limbDirections;
+        directions.skyDirections = settings.skyDirections;
+        base::parallel([&](int thread, int threads) {
+            RayTracer tracer(profile, optics, 2);
+            for (int a = thread; a < grid.altitudeCount(); a += threads)
+                levels_[a] = traced(tracer, grid.altitudes()[a], directionsAt(profile.planet(), grid.altitudes()[a], directions),
+                                    settings.nodes);
+        });
+    }
+
+    /// Light straight from the ground: event 0.
+    Sums direct() const
+    {
+        return swept([&](const Ray& ray, double* radiance) {
+            for (int w = 0; w < optics_.wavelengths; ++w)
+                radiance[w] = ray.groundTransmittance[w];
+        });
+    }
+
+    /// The light of one event, scattered and reflected once more.
+    Sums scattered(const GlowMoments& previous) const
+    {
+        return swept([&](const Ray& ray, double* radiance) {
+            const int count = (optics_.degree + 1) * optics_.wavelengths;
+            std::vector<double> field(count);
+            for (int w = 0; w < optics_.wavelengths; ++w)
+                radiance[w] = ray.groundTransmittance[w] * medium_.groundAlbedo[w] / pi * previous.groundIrradiance[w];
+            for (size_t k = 0; k < ray.altitudes.size(); ++k) {
+                previous.interpolate(ray.altitudes[k], field.data());
+                const double* coefficients = &ray.coefficients[k * count];
+                for (int l = 0; l <= optics_.degree; ++l)
+                    for (int w = 0; w < optics_.wavelengths; ++w)
+                        radiance[w] += coefficients[l * optics_.wavelengths + w] * field[l * optics_.wavelengths + w];
+            }
+        });
+    }
+
+private:
+    struct Ray {
+        double mu, weight;
+        std::vector<double> groundTransmittance; // [wavelength]; zeros where it misses the ground
+        std::vector<double> altitudes;           // of the nodes
+        std::vector<double> coefficients;        // [node][l][wavelength]
+    };
+
+    std::vector<Ray> traced(RayTracer& tracer, double altitude, const Directions& directions, int nodes) const
+    {
+        std::vector<Ray> rays;
+        for (size_t d = 0; d < directions.mu.size(); ++d) {
+            const RayNodes ray = tracer.trace(altitude, directions.mu[d], nodes, directions.hitsGround[d]);
+            Ray own{directions.mu[d], directions.weight[d] * 2 * pi, ray.groundTransmittance, {}, {}};
+            const int count = (optics_.degree + 1) * optics_.wavelengths;
+            own.coefficients.resize(ray.nodes.size() * count);
+            for (size_t k = 0; k < ray.nodes.size(); ++k) {
+                own.altitudes.push_back(ray.nodes[k].altitude);
+                nodeCoefficients(optics_, ray, static_cast<int>(k), &own.coefficients[k * count]);
+            }
+            rays.push_back(std::move(own));
+        }
+        return rays;
+    }
+
+    template<class Radiance>
+    Sums swept(Radiance&& radianceOf) const
+    {
+        const int wavelengths = optics_.wavelengths, count = (optics_.degree + 1) * wavelengths;
+        Sums sums{std::vector<double>(levels_.size() * count, 0.), std::vector<double>(wavelengths, 0.)};
+        base::parallel([&](int thread, int threads) {
+            std::vector<double> radiance(wavelengths), factors(optics_.degree + 1);
+            for (size_t a = thread; a < levels_.size(); a += threads)
+                for (const Ray& ray : levels_[a]) {
+                    radianceOf(ray, radiance.data());
+                    zonalFactors(optics_.degree, ray.mu, factors.data());
+                    for (int l = 0; l <= optics_.degree; ++l)
+                        for (int w = 0; w < wavelengths; ++w)
+                            sums.moments[a * count + l * wavelengths + w] += ray.weight * factors[l] * radiance[w];
+                    if (a == 0 && ray.mu > 0)
+                        for (int w = 0; w < wavelengths; ++w)
+                            sums.irradiance[w] += ray.weight * ray.mu * radiance[w];
+                }
+        });
+        // A cut series of a phase function may be negative somewhere; no field is.
+        for (size_t a = 0; a < levels_.size(); ++a)
+            for (int w = 0; w < wavelengths; ++w)
+                sums.moments[a * count + w] = std::max(0., sums.moments[a * count + w]);
+        for (double& e : sums.irradiance)
+            e = std::max(0., e);
+        return sums;
+    }
+
+    const Medium& medium_;
+    const Optics& optics_;
+    const MomentGrid& grid_;
+    std::vector<std::vector<Ray>> levels_;
+};
+
+void add(std::vector<double>& to, const std::vector<double>& what)
+{
+    for (size_t i = 0; i < to.size(); ++i)
+        to[i] += what[i];
+}
+
+/// Largest relative difference that the last event made to the closed series, over levels and wavelengths.
+double change(const Sums& total, const Sums& last, const Sums& before, const Sums& earlier, int degree, int wavelengths)
+{
+    double largest = 0;
+    for (size_t i = 0; i < total.moments.size(); i += size_t(degree + 1) * wavelengths)
+        for (int w = 0; w < wavelengths; ++w) {
+            const double sum = total.moments[i + w], added = last.moments[i + w];
+            const double now = sum + geometricTail(added, before.moments[i + w]);
+            const double then = sum - added + geometricTail(before.moments[i + w], earlier.moments[i + w]);
+            if (now > darkness)
+                largest = std::max(largest, std::abs(now - then) / now);
+        }
+    return largest;
+}
+
+/// Adds what is beyond the last event; in all harmonics it has that event's shape.
+void close(Sums& total, const Sums& last, const Sums& before, int degree, int wavelengths)
+{
+    for (size_t i = 0; i < total.moments.size(); i += size_t(degree + 1) * wavelengths)
+        for (int w = 0; w < wavelengths; ++w) {
+            const double added = last.moments[i + w];
+            const double scale = added > 0 ? geometricTail(added, before.moments[i + w]) / added : 0;
+            for (int l = 0; l <= degree; ++l)
+                total.moments[i + l * wavelengths + w] += scale * last.moments[i + l * wavelengths + w];
+        }
+    for (size_t w = 0; w < total.irradiance.size(); ++w)
+        total.irradiance[w] += geometricTail(last.irradiance[w], before.irradiance[w]);
+}
+
+} // namespace
+
+void GlowMoments::interpolate(const double altitude, double* const result) const
+{
+    const Stencil a = grid.altitudeStencil(altitude);
+    const int count = (degree + 1) * wavelengths;
+    const double* levels[4];
+    for (int i = 0; i < 4; ++i)
+        levels[i] = &values[size_t(a.index[i]) * count];
+    for (int k = 0; k < count; ++k)
+        result[k] = a.weight[0] * levels[0][k] + a.weight[1] * levels[1][k] + a.weight[2] * levels[2][k] + a.weight[3] * levels[3][k];
+    for (int w = 0; w < wavelengths; ++w)
+        result[w] = std::exp(result[w]);
+    for (int l = 1; l <= degree; ++l)
+        for (int w = 0; w < wavelengths; ++w)
+            result[l * wavelengths + w] *= result[w];
+}
+
+MomentGrid glowGrid(const Profile& profile, const Optics& optics, const GlowSettings& settings)
+{
+    std::vector<double> largest;
+    for (int s = 0; s < optics.species; ++s) {
+        const auto begin = optics.extinction.begin() + s * optics.wavelengths;
+        largest.push_back(*std::max_element(begin, begin + optics.wavelengths));
+    }
+    return MomentGrid(profile, largest, settings.altitudes, 2);
+}
+
+Profile glowProfile(const Medium& medium)
+{
+    // Densities are followed less closely than for twilight, which looks through much more air.
+    constexpr double tolerance = 1e-3;
+    constexpr int shells = 24;
+    const Profile coarse(medium, tolerance);
+    return coarse.withShellsAt(altitudeNodes(coarse.planet(), shells));
+}
+
+Optics glowOptics(const Medium& medium, const int degree) { return makeOptics(medium, degree, true); }
+
+GlowField solveGroundGlow(const Medium& medium, const Profile& profile, const Optics& optics, const GlowSettings& settings,
+                          const bool keepEvents, const std::function<void(int)>& breath)
+{
+    const MomentGrid grid = glowGrid(profile, optics, settings);
+    const int degree = optics.degree, wavelengths = optics.wavelengths;
+    const Sweeps sweeps(medium, profile, optics, grid, settings);
+    const auto moments = [&](const Sums& sums) { return asMoments(grid, degree, wavelengths, sums); };
+    GlowField field;
+    Sums last = sweeps.direct(), total = last, before, earlier;
+    if (keepEvents)
+        field.perEvent.push_back(moments(last));
+    const bool scatters = !optics.scatterers.empty(); // else no light ever comes down to be reflected
+    for (int event = 1; scatters && event <= settings.mostEvents; ++event) {
+        earlier = std::move(before);
+        before = std::move(last);
+        last = sweeps.scattered(moments(before));
+        add(total.moments, last.moments);
+        add(total.irradiance, last.irradiance);
+        field.eventCount = event;
+        if (keepEvents)
+            field.perEvent.push_back(moments(last));
+        if (breath)
+            breath(event);
+        if (event < 3)
+            continue;
+        field.remainder = change(total, last, before, earlier, degree, wavelengths);
+        if (field.remainder < settings.tolerance)
+            break;
+    }
+    if (scatters)
+        close(total, last, before, degree, wavelengths);
+    field.total = moments(total);
+    return field;
+}
+
+void glowScattered(const Medium& medium, const Optics& optics, const GlowMoments& moments, const RayNodes& ray, double* const result)
+{
+    const int wavelengths = optics.wavelengths, count = (optics.degree + 1) * wavelengths;
+    for (int w = 0; w < wavelengths; ++w)
+        result[w] = ray.groundTransmittance[w] * medium.groundAlbedo[w] / pi * moments.groundIrradiance[w];
+    std::vector<double> coefficients(count), field(count);
+    for (size_t k = 0; k < ray.nodes.size(); ++k) {
+        nodeCoefficients(optics, ray, static_cast<int>(k), coefficients.data());
+        moments.interpolate(ray.nodes[k].altitude, field.data());
+        for (int l = 0; l <= optics.degree; ++l)
+            for (int w = 0; w < wavelengths; ++w)
+                result[w] += coefficients[l * wavelengths + w] * field[l * wavelengths + w];
+    }
+    for (int w = 0; w < wavelengths; ++w)
+        result[w] = std::max(0., result[w]);
+}
+
+void glowRadiance(const Medium& medium, const Optics& optics, const GlowMoments& moments, const RayNodes& ray, double* const result)
+{
+    glowScattered(medium, optics, moments, ray, result);
+    for (int w = 0; w < optics.wavelengths; ++w)
+        result[w] += ray.groundTransmittance[w];
+}
+
+} // namespace sky::physics
