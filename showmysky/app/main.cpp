@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "showmysky/error.hpp"
 #include "subcommand.hpp"
+#include <algorithm>
 #include <CLI/CLI.hpp>
 #include <iostream>
 
@@ -14,6 +15,15 @@ int complain(const std::string& message, int code)
 {
     std::cerr << "showmysky: " << message << std::endl;
     return code;
+}
+
+/// `showmysky MODEL ...` is `showmysky view MODEL ...`.
+std::vector<std::string> withSubcommand(const std::vector<CLI::App*>& subcommands, std::vector<std::string> words)
+{
+    const auto named = [&](const CLI::App* subcommand) { return subcommand->get_name() == words[0]; };
+    if (!words.empty() && words[0].substr(0, 1) != "-" && std::none_of(subcommands.begin(), subcommands.end(), named))
+        words.insert(words.begin(), "view");
+    return words;
 }
 
 } // namespace
@@ -30,7 +40,9 @@ int main(int argc, char** argv)
     for (const auto& subcommand : subcommands)
         entries.push_back(subcommand->addTo(app));
     try {
-        app.parse(argc, argv);
+        auto words = withSubcommand(entries, {argv + 1, argv + argc});
+        std::reverse(words.begin(), words.end()); // as the parser wants them
+        app.parse(std::move(words));
         for (std::size_t i = 0; i < entries.size(); ++i)
             if (*entries[i])
                 return subcommands[i]->run();

@@ -23,6 +23,7 @@ public:
 /// All subcommands, in the order of --help.
 std::vector<std::unique_ptr<Subcommand>> makeSubcommands();
 
+std::unique_ptr<Subcommand> makeView();
 std::unique_ptr<Subcommand> makeRender();
 std::unique_ptr<Subcommand> makeMeasure();
 std::unique_ptr<Subcommand> makeProbe();

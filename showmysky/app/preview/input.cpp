@@ -1,0 +1,138 @@
+#include "input.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace showmysky::app::preview {
+
+namespace {
+
+constexpr double clickReach = 4;                                          // pixels: a hand isn't that steady
+constexpr double narrowest = 0.05, widestPerspective = 170, widest = 360; // degrees
+
+/// Angle across one pixel in the middle of the picture, degrees.
+double degreesPerPixel(const SceneOptions& scene, const Canvas& canvas)
+{
+    constexpr double degree = 3.14159265358979323846 / 180;
+    if (scene.projection == Projection::perspective)
+        return 2 * std::tan(scene.fieldOfView * degree / 2) / canvas.width / degree;
+    return scene.fieldOfView / canvas.width;
+}
+
+double wrapped(double azimuth)
+{
+    const double turn = std::fmod(azimuth + 180, 360);
+    return turn < 0 ? turn + 180 : turn - 180;
+}
+
+/// Azimuths crowd together near the zenith: there the same angle on the sky is a larger step of azimuth.
+double azimuthStep(double angle, double elevation)
+{
+    constexpr double degree = 3.14159265358979323846 / 180;
+    return angle / std::max(0.1, std::cos(elevation * degree));
+}
+
+void moveOnSky(double& azimuth, double& zenith, double right, double down)
+{
+    azimuth = wrapped(azimuth + azimuthStep(right, 90 - zenith));
+    zenith = std::clamp(zenith + down, 0., 180.);
+}
+
+} // namespace
+
+void turnCamera(SceneOptions& scene, const Canvas& canvas, double dx, double dy)
+{
+    const double scale = degreesPerPixel(scene, canvas);
+    scene.yaw = wrapped(scene.yaw - azimuthStep(dx * scale, scene.pitch));
+    scene.pitch = std::clamp(scene.pitch + dy * scale, -90., 90.);
+}
+
+void moveSun(SceneOptions& scene, const Canvas& canvas, double dx, double dy)
+{
+    const double scale = degreesPerPixel(scene, canvas);
+    moveOnSky(scene.sunAzimuth, scene.sunZenith, dx * scale, dy * scale);
+}
+
+void moveMoon(SceneOptions& scene, const Canvas& canvas, double dx, double dy)
+{
+    const double scale = degreesPerPixel(scene, canvas);
+    moveOnSky(scene.moonAzimuth, scene.moonZenith, dx * scale, dy * scale);
+}
+
+void zoom(SceneOptions& scene, double steps)
+{
+    scene.fieldOfView *= std::pow(0.9, steps);
+    limitFieldOfView(scene);
+}
+
+void limitFieldOfView(SceneOptions& scene)
+{
+    const bool perspective = scene.projection == Projection::perspective;
+    scene.fieldOfView = std::clamp(scene.fieldOfView, narrowest, perspective ? widestPerspective : widest);
+}
+
+void putMoonOnSun(SceneOptions& scene)
+{
+    scene.moonZenith = scene.sunZenith;
+    scene.moonAzimuth = scene.sunAzimuth;
+}
+
+void Pointer::press(const ButtonPressed& event)
+{
+    if (drag_ != Drag::none)
+        return;
+    button_ = event.button;
+    start_ = last_ = event.at;
+    if (event.modifiers.control)
+        drag_ = event.button == Button::right ? Drag::moon : Drag::sun;
+    else if (event.modifiers.shift || event.button == Button::right)
+        drag_ = Drag::camera;
+    else if (event.button == Button::left)
+        drag_ = Drag::click;
+}
+
+void Pointer::move(const PointerMoved& event, SceneOptions& scene, const Canvas& canvas)
+{
+    const double dx = event.to.x - last_.x, dy = event.to.y - last_.y;
+    last_ = event.to;
+    if (drag_ == Drag::camera)
+        turnCamera(scene, canvas, dx, dy);
+    else if (drag_ == Drag::sun)
+        moveSun(scene, canvas, dx, dy);
+    else if (drag_ == Drag::moon)
+        moveMoon(scene, canvas, dx, dy);
+}
+
+Wishes Pointer::handle(const Event& event, SceneOptions& scene, const Canvas& canvas, bool captured)
+{
+    Wishes wishes;
+    if (const auto* moved = std::get_if<PointerMoved>(&event)) {
+        move(*moved, scene, canvas);
+    } else if (const auto* pressed = std::get_if<ButtonPressed>(&event)) {
+        if (!captured)
+            press(*pressed);
+    } else if (const auto* released = std::get_if<ButtonReleased>(&event)) {
+        if (drag_ == Drag::none || released->button != button_)
+            return wishes;
+        move({released->at}, scene, canvas);
+        if (drag_ == Drag::click && std::hypot(released->at.x - start_.x, released->at.y - start_.y) <= clickReach)
+            wishes.pick = released->at;
+        drag_ = Drag::none;
+    } else if (const auto* wheel = std::get_if<WheelTurned>(&event)) {
+        if (!captured)
+            zoom(scene, wheel->steps);
+    } else if (const auto* key = std::get_if<KeyPressed>(&event)) {
+        if (captured)
+            return wishes;
+        wishes.toggleChrome = key->key == Key::tab;
+        wishes.closePick = key->key == Key::escape;
+        wishes.reload = key->key == Key::r;
+        wishes.save = key->key == Key::s && key->modifiers.control;
+        wishes.quit = key->key == Key::q && key->modifiers.control;
+    } else if (const auto* dropped = std::get_if<Dropped>(&event)) {
+        wishes.open = dropped->paths;
+    }
+    return wishes;
+}
+
+} // namespace showmysky::app::preview

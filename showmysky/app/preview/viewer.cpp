@@ -1,0 +1,248 @@
+#include "viewer.hpp"
+
+#include "base/error.hpp"
+#include "obscuration.hpp"
+#include "scene_file.hpp"
+#include "spectrum_plot.hpp"
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+
+namespace showmysky::app::preview {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double patienceIdle = 0.1, patienceWaiting = 0.02; // s between looks at files and child processes
+constexpr int framesAfterEvent = 3;
+
+double secondsSince(Clock::time_point start)
+{
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::string inWords(const Obscuration& o)
+{
+    if (o.moonRadius == 0)
+        return "The Moon is not on the Sun's side of the sky.";
+    char text[160];
+    std::snprintf(text, sizeof text, "%.2f %% of the Sun is hidden (radii %.4f and %.4f, %.4f apart).", 100 * o.hidden,
+                  o.sunRadius, o.moonRadius, o.separation);
+    return text;
+}
+
+} // namespace
+
+Viewer::Viewer(State state)
+    : state_(std::move(state)), window_(state_.windowWidth, state_.windowHeight, "showmysky"), interface_(window_),
+      context_(window_.loader()), developer_(context_.api()), exhibit_(window_.loader())
+{
+}
+
+void Viewer::open(const std::string& path)
+{
+    if (std::filesystem::path(path).extension() == ".scene") {
+        loadSceneFile(path);
+        return;
+    }
+    exhibit_.open(path);
+    window_.setTitle(path + " - showmysky");
+}
+
+void Viewer::saveSceneFile()
+{
+    try {
+        saveScene(state_.scene, state_.sceneFile);
+        note_ = "Saved " + state_.sceneFile + ".";
+    } catch (const sky::Error& error) {
+        note_ = error.what();
+    }
+}
+
+void Viewer::loadSceneFile(const std::string& path)
+{
+    try {
+        loadScene(state_.scene, path);
+        limitFieldOfView(state_.scene);
+        state_.sceneFile = path;
+        note_ = "Loaded " + path + ".";
+    } catch (const sky::Error& error) {
+        note_ = error.what();
+    }
+}
+
+void Viewer::obey(const Wishes& wishes)
+{
+    if (wishes.pick)
+        pick_ = wishes.pick;
+    if (wishes.closePick)
+        pick_.reset();
+    if (wishes.toggleChrome)
+        chrome_ = !chrome_;
+    if (wishes.reload)
+        exhibit_.reload();
+    if (wishes.save)
+        saveSceneFile();
+    quit_ = quit_ || wishes.quit;
+    for (const auto& path : wishes.open)
+        open(path);
+}
+
+void Viewer::handleEvents(double patience)
+{
+    const auto events = window_.events(patience);
+    interface_.begin();
+    for (const auto& event : events) {
+        const bool key = std::holds_alternative<KeyPressed>(event);
+        const bool captured = key ? interface_.wantsKeys() : interface_.wantsPointer();
+        const auto wishes = pointer_.handle(event, state_.scene, window_.size(), captured);
+        obey(wishes);
+        if (wishes.pick || wishes.closePick)
+            atRest_ = false; // the light of another pixel is to be read
+    }
+    if (!events.empty())
+        framesDue_ = framesAfterEvent;
+}
+
+void Viewer::learnAboutModel()
+{
+    const Sky& sky = *exhibit_.sky();
+    stage_.forget();
+    known_.scatterers = sky.scatterers();
+    known_.topOfAtmosphere = sky.topOfAtmosphere();
+    framesDue_ = framesAfterEvent;
+    atRest_ = false;
+}
+
+void Viewer::updateRefusals()
+{
+    const Sky& sky = *exhibit_.sky();
+    const auto why = [&](const auto& change) {
+        SceneSettings settings;
+        settings.altitude = state_.scene.altitude;
+        settings.moon.distance = state_.scene.moonDistance;
+        change(settings);
+        return sky.whyUnsupported(settings);
+    };
+    known_.eclipseRefusal = why([](SceneSettings& s) { s.eclipse = EclipseMode::on; });
+    known_.pollutionRefusal = why([&](SceneSettings& s) {
+        s.layers.lightPollution = true;
+        s.lightPollutionLuminance = state_.scene.lightPollution;
+    });
+    known_.texturesRefusal = why([](SceneSettings& s) { s.source = Source::textures; });
+    known_.onTheFlyRefusal = why([&](SceneSettings& s) {
+        s.source = state_.scene.source;
+        s.onTheFlySingleScattering = true;
+    });
+    try {
+        known_.obscuration = inWords(obscuration(settingsFor(sky, state_.scene), sky.planetRadius(),
+                                                 sky.topOfAtmosphere(), sky.sunAngularRadius()));
+    } catch (const std::exception& error) {
+        known_.obscuration = error.what();
+    }
+}
+
+void Viewer::updateSky()
+{
+    Sky* sky = exhibit_.sky();
+    if (!sky)
+        return;
+    const bool changed = !(lastScene_ == state_.scene);
+    lastScene_ = state_.scene;
+    if (changed || known_.obscuration.empty())
+        updateRefusals();
+    if (changed)
+        atRest_ = false;
+    if (atRest_)
+        return;
+    const auto result = stage_.advance(*sky, state_.scene, window_.framebuffer(), changed || pointer_.dragging(),
+                                       [this] { context_.api()->Finish(); });
+    const bool nowAtRest = result.atRest && !pointer_.dragging();
+    if (result.drawn)
+        exposure_ = automaticExposure(developer_.sample(sky->luminanceTexture()));
+    if (pick_ && nowAtRest && sky->luminanceTexture() != 0) {
+        const Point at = window_.inFramebuffer(*pick_);
+        const Canvas size = window_.framebuffer();
+        reading_ = readLight(*sky, {at.x / size.width, at.y / size.height});
+    }
+    if (!pick_)
+        reading_.reset();
+    framesDue_ = std::max(framesDue_, result.drawn || nowAtRest ? 1 : 0);
+    atRest_ = nowAtRest;
+}
+
+PanelFacts Viewer::facts() const
+{
+    PanelFacts facts = known_;
+    facts.model = exhibit_.path().string();
+    facts.exposure = exposure_;
+    facts.refusal = stage_.refusal();
+    facts.activity = exhibit_.waiting() ? exhibit_.activity() : stage_.activity();
+    facts.fraction = exhibit_.waiting() ? exhibit_.fraction() : 0;
+    facts.frameSeconds = frameSeconds_;
+    facts.skySeconds = stage_.drawSeconds();
+    facts.screenSeconds = screenSeconds_;
+    facts.problem = exhibit_.problem();
+    facts.note = note_;
+    return facts;
+}
+
+void Viewer::drawFrame()
+{
+    const auto start = Clock::now();
+    const auto& gl = context_.api();
+    const Canvas size = window_.framebuffer();
+    const unsigned light = exhibit_.sky() ? exhibit_.sky()->luminanceTexture() : 0;
+    gl->BindFramebuffer(GL_FRAMEBUFFER, 0);
+    gl->Viewport(0, 0, size.width, size.height);
+    gl->ClearColor(0.08f, 0.08f, 0.1f, 1);
+    gl->Clear(GL_COLOR_BUFFER_BIT);
+    const auto& development = state_.scene.development;
+    if (light != 0)
+        developer_.draw(light, development, development.automatic ? exposure_ : development.exposure,
+                        {0, 0, size.width, size.height});
+    gl->Finish();
+    screenSeconds_ = secondsSince(start);
+    if (chrome_) {
+        const auto wishes = drawPanel(state_, facts());
+        if (wishes.reload)
+            exhibit_.reload();
+        if (wishes.save)
+            saveSceneFile();
+        if (wishes.load)
+            loadSceneFile(state_.sceneFile);
+        if (pick_ && reading_ && !drawReading(*reading_, static_cast<float>(pick_->x), static_cast<float>(pick_->y)))
+            pick_.reset();
+    }
+    drawNotice(facts(), light != 0);
+    interface_.end();
+    window_.show();
+}
+
+void Viewer::run()
+{
+    while (!window_.closing() && !quit_) {
+        const bool busy = framesDue_ > 0 || (exhibit_.sky() && !atRest_);
+        handleEvents(busy ? 0 : exhibit_.waiting() ? patienceWaiting : patienceIdle);
+        const auto start = Clock::now();
+        const std::string before = exhibit_.activity() + exhibit_.problem();
+        if (exhibit_.update())
+            learnAboutModel();
+        if (exhibit_.activity() + exhibit_.problem() != before)
+            framesDue_ = std::max(framesDue_, 1);
+        updateSky();
+        if (framesDue_ > 0) {
+            drawFrame();
+            --framesDue_;
+            frameSeconds_ = secondsSince(start);
+        } else {
+            interface_.skip();
+        }
+    }
+    const Canvas size = window_.size();
+    state_.windowWidth = size.width;
+    state_.windowHeight = size.height;
+}
+
+} // namespace showmysky::app::preview

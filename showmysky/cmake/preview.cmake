@@ -1,0 +1,17 @@
+# The window of `showmysky`: GLFW and Dear ImGui. Without them the program is built all the same and says what is missing.
+find_package(glfw3 3.3 QUIET)
+find_library(IMGUI_LIBRARY imgui)
+find_library(STB_LIBRARY stb) # Debian's Dear ImGui leaves these functions to libstb
+find_path(IMGUI_INCLUDE_DIR imgui.h PATH_SUFFIXES imgui)
+set(preview ${CMAKE_CURRENT_SOURCE_DIR}/app/preview)
+if(glfw3_FOUND AND IMGUI_LIBRARY AND IMGUI_INCLUDE_DIR)
+    file(GLOB sources CONFIGURE_DEPENDS ${preview}/*.cpp)
+    list(REMOVE_ITEM sources ${preview}/without_window.cpp)
+    target_sources(showmysky PRIVATE ${sources})
+    target_include_directories(showmysky SYSTEM PRIVATE ${IMGUI_INCLUDE_DIR})
+    target_link_libraries(showmysky PRIVATE glfw ${IMGUI_LIBRARY} $<$<BOOL:${STB_LIBRARY}>:${STB_LIBRARY}>
+        ${CMAKE_DL_LIBS} nlohmann_json::nlohmann_json)
+else()
+    message(STATUS "GLFW 3.3 or Dear ImGui is missing: showmysky is built without its window")
+    target_sources(showmysky PRIVATE ${preview}/without_window.cpp)
+endif()
