@@ -69,6 +69,9 @@ SceneSettings settingsOf(const showmysky_scene& given)
     settings.onTheFlySingleScattering = scene.on_the_fly_single_scattering != 0;
     settings.pseudoMirror = scene.pseudo_mirror != 0;
     settings.textureFiltering = scene.texture_filtering != 0;
+    settings.eclipseOrders = scene.eclipse_orders;
+    settings.eclipseFine = scene.eclipse_fine != 0;
+    settings.limbDarkening = scene.limb_darkening != 0;
     if (scene.solar_spectrum_factors)
         settings.solarSpectrumFactors.assign(scene.solar_spectrum_factors,
                                              scene.solar_spectrum_factors + scene.solar_spectrum_factor_count);
@@ -148,6 +151,15 @@ void showmysky_default_scene(showmysky_scene* scene)
 int showmysky_set_scene(showmysky_sky* sky, const showmysky_scene* scene)
 {
     return guarded([&] { sky->sky.setSettings(settingsOf(*scene)); });
+}
+
+int showmysky_eclipse_state(const showmysky_sky* sky, const showmysky_scene* scene, showmysky_eclipse* result)
+{
+    return guarded([&] {
+        const EclipseState state = sky->sky.eclipseState(settingsOf(*scene));
+        *result = {static_cast<int>(state.phase), state.obscuration,      state.magnitude,
+                   state.separation,              state.sunAngularRadius, state.moonAngularRadius};
+    });
 }
 
 int showmysky_draw(showmysky_sky* sky, const showmysky_camera* camera, int width, int height, int reduction)

@@ -1,6 +1,7 @@
 #include "scene.hpp"
 
 #include "air_entry.hpp"
+#include "bodies.hpp"
 #include "model/moment_tables.hpp"
 #include "physics/sky.hpp"
 #include <algorithm>
@@ -29,7 +30,8 @@ bool same(const Layers& a, const Layers& b)
 bool sameTables(const SceneSettings& a, const SceneSettings& b)
 {
     return a.altitude == b.altitude && a.sun.zenithAngle == b.sun.zenithAngle &&
-           a.sun.angularRadius == b.sun.angularRadius && same(a.layers, b.layers) && a.source == b.source &&
+           a.sun.angularRadius == b.sun.angularRadius && same(a.layers, b.layers) &&
+           a.lightPollutionLuminance == b.lightPollutionLuminance && a.source == b.source &&
            a.onTheFlySingleScattering == b.onTheFlySingleScattering && a.solarSpectrumFactors == b.solarSpectrumFactors;
 }
 
@@ -90,7 +92,8 @@ std::string Scene::whyUnsupported(const SceneSettings& settings) const
     if (settings.eclipse == EclipseMode::on)
         return "Solar eclipses can't be drawn by this version.";
     if (settings.layers.lightPollution)
-        return "Light pollution can't be drawn by this version.";
+        if (const std::string why = Glow::whyMissing(atmosphere_->model); !why.empty())
+            return why;
     if (!hasSource(settings.source))
         return settings.source == Source::moments
                    ? "The model holds no moments; compute it anew, or choose the 4D textures as source."
@@ -119,6 +122,8 @@ void Scene::setSettings(const SceneSettings& settings)
             "The zenith angle of the Moon must be between 0 and 180 degrees.");
     require(!settings.sun.angularRadius || (*settings.sun.angularRadius > 0 && *settings.sun.angularRadius < 0.5),
             "The angular radius of the Sun must be above 0 and below 0.5 radians.");
+    require(std::isfinite(settings.lightPollutionLuminance) && settings.lightPollutionLuminance >= 0,
+            "The luminance of the ground must be a number of cd/m^2, at least 0.");
     const auto& factors = settings.solarSpectrumFactors;
     require(factors.empty() || factors.size() == static_cast<std::size_t>(atmosphere_->wavelengths()),
             "The solar spectrum needs one factor for each of the " + std::to_string(atmosphere_->wavelengths()) +
@@ -140,10 +145,18 @@ void Scene::setSettings(const SceneSettings& settings)
     const std::string why = whyUnsupported(settings);
     if (!why.empty())
         throw Error(ErrorKind::unsupported, why);
+    if (settings.layers.lightPollution && !glow_)
+        glow_ = std::make_unique<Glow>(atmosphere_->model, atmosphere_->medium);
     if (!sameTables(settings, settings_))
         ready_ = false;
     settings_ = settings;
     ++version_;
+}
+
+EclipseState Scene::eclipseState(const SceneSettings& settings) const
+{
+    const double radius = settings.sun.angularRadius.value_or(atmosphere_->medium.sunAngularRadius);
+    return stateOf(bodiesOf(atmosphere_->model.manifest(), settings.altitude, settings.sun, settings.moon, radius));
 }
 
 LayersUsed Scene::layersUsed() const
@@ -187,7 +200,7 @@ Progress Scene::step()
     const double muSun = std::cos(settings_.sun.zenithAngle);
     const auto weights = atmosphere_->luminanceWeights(settings_.solarSpectrumFactors);
     if (settings_.source == Source::moments) {
-        view_ = gather_->gather(muSun, gathered, weights);
+        view_ = gathers ? gather_->gather(muSun, gathered, weights) : SkyView{{}, std::vector<ViewTable>(layers.single.size())};
     } else {
         LayersUsed looked = layers;
         if (settings_.onTheFlySingleScattering)
@@ -202,9 +215,22 @@ Progress Scene::step()
                     view_.scattered[i] = std::move(own.scattered[i]);
         }
     }
+    addGlow();
     ready_ = true;
     ++version_;
     return {true, 1, {}};
+}
+
+void Scene::addGlow()
+{
+    if (!settings_.layers.lightPollution || settings_.lightPollutionLuminance <= 0)
+        return;
+    ViewTable glow = settings_.source == Source::textures ? glow_->fromTextures(settings_.altitude)
+                                                          : glow_->fromMoments(settings_.altitude);
+    for (Texel& texel : glow.texels)
+        for (float& value : texel)
+            value *= static_cast<float>(settings_.lightPollutionLuminance);
+    view_.whole = sum(resampled(view_.whole, drawnHalfViews, drawnAzimuths), resampled(glow, drawnHalfViews, drawnAzimuths));
 }
 
 SceneGeometry Scene::geometry() const
@@ -307,6 +333,12 @@ std::vector<double> Scene::spectralRadiance(const std::array<double, 3>& directi
     for (std::size_t w = 0; w < wavelengths; ++w)
         result[w] = std::max(0., result[w]) * medium.solarIrradiance[w] *
                     (settings_.solarSpectrumFactors.empty() ? 1 : settings_.solarSpectrumFactors[w]);
+    if (settings_.layers.lightPollution) {
+        std::vector<double> glow(wavelengths);
+        glow_->radiance(settings_.altitude, view[2], glow.data());
+        for (std::size_t w = 0; w < wavelengths; ++w)
+            result[w] += glow[w] * settings_.lightPollutionLuminance;
+    }
     return result;
 }
 

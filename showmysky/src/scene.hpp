@@ -1,6 +1,7 @@
 #pragma once
 // All that is computed without OpenGL: a model, settings, and the sky tables and spectra that follow from both.
 
+#include "glow.hpp"
 #include "moment_gather.hpp"
 #include "painter.hpp"
 #include "showmysky/sky.hpp"
@@ -24,6 +25,9 @@ public:
     bool hasSource(Source source) const;
     std::string whyUnsupported(const SceneSettings& settings) const;
 
+    /// throws Error
+    EclipseState eclipseState(const SceneSettings& settings) const;
+
     /// Checks and keeps the settings.   throws Error
     void setSettings(const SceneSettings& settings);
     const SceneSettings& settings() const { return settings_; }
@@ -44,6 +48,7 @@ private:
     LayersUsed layersUsed() const;
     double sunRadius() const;
     void followSunlight();
+    void addGlow();
     std::array<Texel, sunColourCount> sunColours() const;
 
     std::string directory_;
@@ -54,6 +59,7 @@ private:
     double tabulatedSunRadius_ = -1;
     std::unique_ptr<MomentGather> gather_;
     std::unique_ptr<TextureLookup> lookup_;
+    std::unique_ptr<Glow> glow_; ///< once light pollution has been asked for
     SceneSettings settings_;
     SkyView view_;
     bool ready_ = false;

@@ -203,6 +203,14 @@ const SceneSettings& Sky::settings() const
     return inside_->scene.settings();
 }
 
+EclipseState Sky::eclipseState(const SceneSettings& settings) const
+{
+    return translated([&] {
+        inside_->requireLoaded();
+        return inside_->scene.eclipseState(settings);
+    });
+}
+
 Progress Sky::prepareStep()
 {
     return translated([&] {

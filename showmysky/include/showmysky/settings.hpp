@@ -16,7 +16,7 @@ struct Layers {
     bool solarDisc = false; ///< the attenuated disc: far too bright for most pictures, so it is asked for
     bool singleScattering = true;
     bool multipleScattering = true;
-    bool lightPollution = false;               ///< needs a model that was computed with it
+    bool lightPollution = false;               ///< the glowing ground, and the air above it; needs a model that has it
     std::vector<std::string> hiddenScatterers; ///< whose single scattering is left out, by the names in the model
 };
 
@@ -46,7 +46,10 @@ struct SceneSettings {
     Moon moon{};
     Layers layers{};
     Source source = Source::moments;
-    EclipseMode eclipse = EclipseMode::off;
+    EclipseMode eclipse = EclipseMode::off; ///< on: the Moon hides what it hides, from each point of the air
+    int eclipseOrders = 0;                  ///< scatterings followed through the shadow, >= 1; 0: as many as the model has
+    bool eclipseFine = false;               ///< tables of an eclipse four times as fine both ways: for stills
+    bool limbDarkening = false;             ///< in an eclipse the Sun is darker towards its limb
     bool onTheFlySingleScattering = false; ///< of the textures source: single scattering gathered, not looked up
     double lightPollutionLuminance = 0;    ///< of the ground, cd m^-2
     bool pseudoMirror = false;             ///< below the horizon a mirror image of the sky instead of the ground

@@ -37,6 +37,8 @@ typedef struct showmysky_scene {
     int eclipse, on_the_fly_single_scattering, pseudo_mirror, texture_filtering; /* 0 or 1 */
     const double* solar_spectrum_factors;                                        /* null, or one per wavelength */
     size_t solar_spectrum_factor_count;
+    int eclipse_orders;                /* scatterings followed through the shadow; 0: as many as the model has */
+    int eclipse_fine, limb_darkening;  /* 0 or 1 */
 } showmysky_scene;
 
 typedef struct showmysky_camera {
@@ -66,6 +68,13 @@ SHOWMYSKY_API int showmysky_prepare_step(showmysky_sky* sky, int* done, double* 
 
 SHOWMYSKY_API void showmysky_default_scene(showmysky_scene* scene);
 SHOWMYSKY_API int showmysky_set_scene(showmysky_sky* sky, const showmysky_scene* scene);
+/* Sun and Moon of a scene, whether it asks for an eclipse or not: EclipseState in sky.hpp. */
+enum { SHOWMYSKY_NO_ECLIPSE = 0, SHOWMYSKY_PARTIAL = 1, SHOWMYSKY_ANNULAR = 2, SHOWMYSKY_TOTAL = 3 };
+typedef struct showmysky_eclipse {
+    int phase;
+    double obscuration, magnitude, separation, sun_angular_radius, moon_angular_radius;
+} showmysky_eclipse;
+SHOWMYSKY_API int showmysky_eclipse_state(const showmysky_sky* sky, const showmysky_scene* scene, showmysky_eclipse* result);
 SHOWMYSKY_API int showmysky_draw(showmysky_sky* sky, const showmysky_camera* camera, int width, int height,
                                  int reduction);
 SHOWMYSKY_API unsigned showmysky_luminance_texture(const showmysky_sky* sky);

@@ -63,6 +63,16 @@ struct Options {
     std::function<void(const std::string&)> log{}; ///< takes warnings; without it there are none
 };
 
+/// How Sun and Moon stand to each other for a camera. Angles in rad. The horizon isn't counted.
+struct EclipseState {
+    enum class Phase { none, partial, annular, total };
+    Phase phase = Phase::none;
+    double obscuration = 0; ///< share of the disc's area that the Moon hides, 0..1
+    double magnitude = 0;   ///< share of the disc's diameter that is hidden; when central, the ratio of the diameters
+    double separation = 0;  ///< of the centres
+    double sunAngularRadius = 0, moonAngularRadius = 0;
+};
+
 /// The sky of one model.
 class SHOWMYSKY_API Sky
 {
@@ -94,6 +104,8 @@ public:
     /// stays
     void setSettings(const SceneSettings& settings);
     const SceneSettings& settings() const;
+    /// Sun and Moon of any settings, whether they ask for an eclipse or not.   throws settings: the Moon can't be there
+    EclipseState eclipseState(const SceneSettings& settings) const;
     /// Computes a part of what the settings changed: call until done, then draw() doesn't wait. draw() does what is
     /// left.
     Progress prepareStep();
