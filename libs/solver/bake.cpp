@@ -4,6 +4,7 @@
 #include "base/parallel.hpp"
 #include "physics/colour.hpp"
 #include "physics/table_axes.hpp"
+#include "solver/lit_gather.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -137,29 +138,35 @@ void bakeSingleScattering(const gl::Api& api, const BakeJob& job, model::ModelWr
     const int scatterers = job.scene.scatterers();
     if (scatterers == 0)
         return;
-    // Luminance loses nothing where the phase function is inside or the same at all wavelengths.
-    std::vector<bool> withPhase, luminance;
+    // Luminance loses nothing where the phase function is inside or the same at all wavelengths; in the latter case it is gathered
+    // as such.
+    enum class Way { spectra, luminanceOfSpectra, luminance };
+    std::vector<bool> withPhase;
+    std::vector<Way> ways;
     std::vector<model::TableWriter> tables;
-    bool anyLuminance = false, anySpectral = false;
     for (const int s : optics.scatterers) {
         const auto& scatterer = job.description.scatterers[s];
         const bool smooth = scatterer.phaseFunctionType == atmo::PhaseFunctionType::Smooth;
         const bool achromatic = scatterer.phaseFunctionType == atmo::PhaseFunctionType::Achromatic;
         withPhase.push_back(smooth);
-        luminance.push_back(!job.options.radiance && (smooth || achromatic));
-        (luminance.back() ? anyLuminance : anySpectral) = true;
-        tables.push_back(writer.table(scatteringSpec(job, "single-scattering/" + scatterer.name, luminance.back(),
+        const bool luminance = !job.options.radiance && (smooth || achromatic);
+        ways.push_back(!luminance ? Way::spectra : smooth && !job.scene.medium.species[s].achromatic ? Way::luminanceOfSpectra : Way::luminance);
+        tables.push_back(writer.table(scatteringSpec(job, "single-scattering/" + scatterer.name, luminance,
                                                      smooth ? "single scattering, phase function included"
                                                             : "single scattering, to be multiplied by the phase function")));
     }
-    std::optional<DirectGather> asLuminance, asSpectra;
-    if (anyLuminance)
-        asLuminance.emplace(api, job.scene, DirectGather::Purpose::table, luminanceOf(job.scene.medium));
-    if (anySpectral)
-        asSpectra.emplace(api, job.scene, DirectGather::Purpose::table, std::vector<std::array<double, 4>>{});
+    const auto any = [&](Way way) { return std::find(ways.begin(), ways.end(), way) != ways.end(); };
+    std::optional<LitGather> luminance;
+    std::optional<DirectGather> luminanceOfSpectra, spectra;
+    if (any(Way::luminance))
+        luminance.emplace(api, job.scene, luminanceOf(job.scene.medium));
+    if (any(Way::luminanceOfSpectra))
+        luminanceOfSpectra.emplace(api, job.scene, DirectGather::Purpose::table, luminanceOf(job.scene.medium));
+    if (any(Way::spectra))
+        spectra.emplace(api, job.scene, DirectGather::Purpose::table, std::vector<std::array<double, 4>>{});
 
     const auto altitudes = job.altitudes();
-    const std::size_t vec4s = anySpectral ? job.scene.sets() : 1;
+    const std::size_t vec4s = spectra ? job.scene.sets() : 1;
     const Layer shape(job, scatterers * vec4s * 16);
     gl::Buffer results(api, "single scattering", shape.texels(shape.viewsAtOnce) * scatterers * vec4s * 16);
     std::vector<std::vector<float>> layers(scatterers);
@@ -168,22 +175,32 @@ void bakeSingleScattering(const gl::Api& api, const BakeJob& job, model::ModelWr
         const SunSamples samples = samplesOf(api, job, altitudes[layer]);
         for (int first = 0; first < shape.views; first += shape.viewsAtOnce) {
             const int count = std::min(shape.viewsAtOnce, shape.views - first);
-            const DirectRays rays(api, job.scene, viewsFrom(job, altitudes[layer], first, count), job.settings.directNodes, false);
-            const auto gather = [&](DirectGather& with, bool asLuminanceToo) {
-                with.gather(rays, samples, shape.strides(count), withPhase, results, fraction);
+            const DirectRayData rays(job.scene, viewsFrom(job, altitudes[layer], first, count), job.settings.directNodes, false);
+            const auto place = [&](Way way) {
                 const auto values = results.download();
-                const std::size_t floats = asLuminanceToo ? 4 : std::size_t(job.scene.sets()) * 4;
+                const std::size_t floats = way == Way::spectra ? std::size_t(job.scene.sets()) * 4 : 4;
                 for (int i = 0; i < scatterers; ++i)
-                    if (luminance[i] == asLuminanceToo)
+                    if (ways[i] == way)
                         shape.place(&values[i * shape.texels(count) * floats], first, count, floats, layers[i]);
             };
-            if (asLuminance)
-                gather(*asLuminance, true);
-            if (asSpectra)
-                gather(*asSpectra, false);
+            if (luminance) {
+                luminance->gather(rays, samples, shape.strides(count), withPhase, results, fraction);
+                place(Way::luminance);
+            }
+            if (!luminanceOfSpectra && !spectra)
+                continue;
+            const DirectRays onGpu(api, rays);
+            if (luminanceOfSpectra) {
+                luminanceOfSpectra->gather(onGpu, samples, shape.strides(count), withPhase, results, fraction);
+                place(Way::luminanceOfSpectra);
+            }
+            if (spectra) {
+                spectra->gather(onGpu, samples, shape.strides(count), withPhase, results, fraction);
+                place(Way::spectra);
+            }
         }
         for (int i = 0; i < scatterers; ++i)
-            writeLayer(job, tables[i], static_cast<int>(layer), luminance[i], layers[i].data(), shape.suns, shape.texels(shape.views));
+            writeLayer(job, tables[i], static_cast<int>(layer), ways[i] != Way::spectra, layers[i].data(), shape.suns, shape.texels(shape.views));
     }
     breath(1);
 }
@@ -195,7 +212,7 @@ void bakeMultipleScattering(const gl::Api& api, const BakeJob& job, const physic
     auto table = writer.table(scatteringSpec(job, name, luminance, "multiple scattering"));
     ScatteredGather gather(api, job.scene, false,
                            luminance ? luminanceOf(job.scene.medium) : std::vector<std::array<double, 4>>{});
-    const FineField fine(field, job.settings.refinement);
+    const FoldField fine(field, job.settings.refinement);
     const auto altitudes = job.altitudes();
     const std::size_t floats = luminance ? 4 : std::size_t(job.scene.sets()) * 4;
     const Layer shape(job, floats * sizeof(float));

@@ -1,7 +1,10 @@
 #include "solver/field.hpp"
+#include "base/lanes.hpp"
 #include "base/parallel.hpp"
 #include "physics/harmonics.hpp"
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sky::solver {
 
@@ -9,13 +12,6 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 constexpr double toLog2 = 1.44269504088896340736;
-
-// The inner loop in the widest vectors that the machine has; elsewhere the compiler's default.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define SKY_WIDEST_VECTORS __attribute__((target_clones("avx512f", "avx2,fma", "default")))
-#else
-#define SKY_WIDEST_VECTORS
-#endif
 
 /// One node: `levels` are the field at the four altitudes of its stencil, [sun][lm][stride] each.
 SKY_WIDEST_VECTORS
@@ -46,75 +42,130 @@ void foldNode(const float* const levels[4], const float weights[4], const float*
     }
 }
 
+/// X, Y, Z, scotopic: the compiler's vector type.
+using Four = float __attribute__((vector_size(16)));
+
+/// The same node as luminance: `source` is its [sun][1 + term][stride], `target` its [sun][1 + term][4].
+///   luminance  [wavelength][4]
+///   weights    scratch, [wavelength]
+SKY_WIDEST_VECTORS
+void toLuminance(const float* __restrict source, const float* __restrict luminance, int suns, int rows, int stride,
+                 Four* __restrict weights, float* __restrict target)
+{
+    for (int sun = 0; sun < suns; ++sun, source += rows * stride, target += rows * 4) {
+        Four level{};
+        for (int w = 0; w < stride; ++w) {
+            const float mean = base::exp2Lane(source[w]);
+            weights[w] = Four{mean, mean, mean, mean} * Four{luminance[w * 4], luminance[w * 4 + 1], luminance[w * 4 + 2], luminance[w * 4 + 3]};
+            level += weights[w];
+        }
+        Four inverse{};
+        for (int c = 0; c < 4; ++c) {
+            const float sum = std::max(level[c], std::numeric_limits<float>::min());
+            target[c] = std::log2(sum);
+            inverse[c] = 1 / sum;
+        }
+        for (int m = 1; m < rows; ++m) {
+            const float* __restrict term = source + m * stride;
+            Four even{}, odd{}; // two sums, since one waits for itself; stride is a multiple of four
+            for (int w = 0; w < stride; w += 2) {
+                even += weights[w] * Four{term[w], term[w], term[w], term[w]};
+                odd += weights[w + 1] * Four{term[w + 1], term[w + 1], term[w + 1], term[w + 1]};
+            }
+            const Four sum = (even + odd) * inverse;
+            for (int c = 0; c < 4; ++c)
+                target[m * 4 + c] = sum[c];
+        }
+    }
+}
+
+/// From the field's Suns to the fine ones: both [sun][values].
+SKY_WIDEST_VECTORS
+void refine(const float* __restrict source, const std::vector<physics::Stencil>& suns, int values, float* __restrict target)
+{
+    for (const auto& sun : suns) {
+        const float *__restrict a = source + sun.index[0] * values, *__restrict b = source + sun.index[1] * values;
+        const float *__restrict c = source + sun.index[2] * values, *__restrict d = source + sun.index[3] * values;
+        const auto wa = static_cast<float>(sun.weight[0]), wb = static_cast<float>(sun.weight[1]),
+                   wc = static_cast<float>(sun.weight[2]), wd = static_cast<float>(sun.weight[3]);
+        for (int i = 0; i < values; ++i)
+            target[i] = wa * a[i] + wb * b[i] + wc * c[i] + wd * d[i];
+        target += values;
+    }
+}
+
+void foldAir(const FoldField& field, const ScatteredRays& rays, std::size_t at, std::vector<float>& coefficients, float* to)
+{
+    const int degree = rays.degree, stride = field.stride;
+    const auto& node = rays.folds[at];
+    const float* c = &rays.coefficients[at * (degree + 1) * stride];
+    const float* p = &rays.factors[at * field.harmonics];
+    for (int l = 0, lm = 0; l <= degree; ++l)
+        for (int m = 0; m <= l; ++m, ++lm)
+            for (int w = 0; w < stride; ++w)
+                coefficients[lm * stride + w] = c[l * stride + w] * p[lm];
+    const float* levels[4];
+    for (int i = 0; i < 4; ++i)
+        levels[i] = &field.moments[std::size_t(node.level[i]) * field.suns * field.harmonics * stride];
+    foldNode(levels, node.weight, coefficients.data(), field.suns, degree, stride, to);
+}
+
+/// What the ground throws into a ray: the same in all azimuths.
+void foldGround(const FoldField& field, const float* reflectance, int rows, float* to)
+{
+    for (int sun = 0; sun < field.suns; ++sun, to += rows * field.stride) {
+        std::fill_n(to, rows * field.stride, 0.F);
+        std::copy_n(&field.ground[std::size_t(sun) * field.stride], field.stride, to);
+        std::copy_n(reflectance, field.stride, to + field.stride);
+    }
+}
+
 } // namespace
 
-FineField::FineField(const physics::Moments& m, const int refinement)
+FoldField::FoldField(const physics::Moments& m, const int refinement)
 {
     const auto& grid = m.grid;
-    suns = (grid.sunCount() - 1) * refinement + 1;
+    suns = grid.sunCount();
     harmonics = physics::harmonicCount(m.degree);
     stride = (m.wavelengths + 3) / 4 * 4;
     const double scale = std::sinh(physics::MomentGrid::sinhScale);
     vLowest = std::asinh(grid.lowestElevation() / (pi / 2) * scale) / physics::MomentGrid::sinhScale;
     moments.assign(std::size_t(grid.altitudeCount()) * suns * harmonics * stride, 0.F);
     ground.assign(std::size_t(suns) * stride, 0.F);
-    base::parallel([&](int thread, int threads) {
-        for (int a = thread; a < grid.altitudeCount(); a += threads)
-            for (int f = 0; f < suns; ++f) {
-                const auto stencil = grid.sunStencil(double(f) / refinement);
-                float* to = &moments[(std::size_t(a) * suns + f) * harmonics * stride];
-                for (int lm = 0; lm < harmonics; ++lm)
-                    for (int w = 0; w < m.wavelengths; ++w) {
-                        double value = 0;
-                        for (int j = 0; j < 4; ++j)
-                            value += stencil.weight[j] * m.at(a, stencil.index[j])[lm * m.wavelengths + w];
-                        to[lm * stride + w] = static_cast<float>(lm == 0 ? value * toLog2 : value);
-                    }
-            }
-    });
-    for (int f = 0; f < suns; ++f) {
-        const auto stencil = grid.sunStencil(double(f) / refinement);
-        for (int w = 0; w < m.wavelengths; ++w) {
-            double value = 0;
-            for (int j = 0; j < 4; ++j)
-                value += stencil.weight[j] *
-                         std::log2(std::max(m.groundIrradiance[stencil.index[j] * m.wavelengths + w], physics::darkness));
-            ground[std::size_t(f) * stride + w] = static_cast<float>(value);
+    for (int a = 0; a < grid.altitudeCount(); ++a)
+        for (int sun = 0; sun < suns; ++sun) {
+            float* to = &moments[(std::size_t(a) * suns + sun) * harmonics * stride];
+            for (int lm = 0; lm < harmonics; ++lm)
+                for (int w = 0; w < m.wavelengths; ++w)
+                    to[lm * stride + w] = static_cast<float>(m.at(a, sun)[lm * m.wavelengths + w] * (lm == 0 ? toLog2 : 1));
         }
-    }
+    for (int sun = 0; sun < suns; ++sun)
+        for (int w = 0; w < m.wavelengths; ++w)
+            ground[std::size_t(sun) * stride + w] =
+                static_cast<float>(std::log2(std::max(m.groundIrradiance[sun * m.wavelengths + w], physics::darkness)));
+    for (int f = 0; f <= (suns - 1) * refinement; ++f)
+        fineSuns.push_back(grid.sunStencil(double(f) / refinement));
 }
 
-void fold(const FineField& field, const ScatteredRays& rays, const int first, const int count, float* const source)
+void fold(const FoldField& field, const ScatteredRays& rays, const int first, const int count, const std::vector<std::array<float, 4>>& luminance,
+          float* const source)
 {
-    const int degree = rays.degree, stride = field.stride, rows = degree + 2;
-    const std::size_t perNode = std::size_t(field.suns) * rows * stride;
+    const int rows = rays.degree + 2, stride = field.stride, channels = luminance.empty() ? stride : 4;
     base::parallel([&](int thread, int threads) {
-        std::vector<float> coefficients(field.harmonics * stride);
-        for (int r = thread; r < count; r += threads) {
-            float* to = source + std::size_t(r) * (rays.nodes + 1) * perNode;
-            for (int k = 0; k < rays.nodes; ++k, to += perNode) {
-                const auto& node = rays.folds[std::size_t(first + r) * rays.nodes + k];
-                const float* c = &rays.coefficients[(std::size_t(first + r) * rays.nodes + k) * (degree + 1) * stride];
-                const float* p = &rays.factors[(std::size_t(first + r) * rays.nodes + k) * field.harmonics];
-                for (int l = 0, lm = 0; l <= degree; ++l)
-                    for (int m = 0; m <= l; ++m, ++lm)
-                        for (int w = 0; w < stride; ++w)
-                            coefficients[lm * stride + w] = c[l * stride + w] * p[lm];
-                const float* levels[4];
-                for (int i = 0; i < 4; ++i)
-                    levels[i] = &field.moments[std::size_t(node.level[i]) * field.suns * field.harmonics * stride];
-                foldNode(levels, node.weight, coefficients.data(), field.suns, degree, stride, to);
+        std::vector<float> coefficients(field.harmonics * stride), spectral(std::size_t(field.suns) * rows * stride),
+            bright(luminance.empty() ? 0 : std::size_t(field.suns) * rows * 4);
+        std::vector<Four> weights(stride);
+        for (int r = thread; r < count; r += threads)
+            for (int k = 0; k <= rays.nodes; ++k) {
+                if (k < rays.nodes)
+                    foldAir(field, rays, std::size_t(first + r) * rays.nodes + k, coefficients, spectral.data());
+                else
+                    foldGround(field, &rays.ground[std::size_t(first + r) * stride], rows, spectral.data());
+                if (!luminance.empty())
+                    toLuminance(spectral.data(), luminance.data()->data(), field.suns, rows, stride, weights.data(), bright.data());
+                refine(luminance.empty() ? spectral.data() : bright.data(), field.fineSuns, rows * channels,
+                       source + (std::size_t(r) * (rays.nodes + 1) + k) * field.fineSuns.size() * rows * channels);
             }
-            const float* ground = &rays.ground[std::size_t(first + r) * stride];
-            for (int sun = 0; sun < field.suns; ++sun)
-                for (int w = 0; w < stride; ++w) {
-                    float* out = to + sun * rows * stride;
-                    out[w] = field.ground[sun * stride + w];
-                    out[stride + w] = ground[w];
-                    for (int m = 1; m <= degree; ++m)
-                        out[(m + 1) * stride + w] = 0;
-                }
-        }
     });
 }
 

@@ -1,59 +1,17 @@
 #include "solver/gather.hpp"
+#include "solver/dispatch.hpp"
 #include "sky_shaders.hpp"
 #include <algorithm>
 
 namespace sky::solver {
 
-namespace {
-
-constexpr double pi = 3.14159265358979323846;
-/// Sets of wavelengths that one dispatch carries along: more would spill registers and compile for ever.
-constexpr int mostSets = 4;
-int setsTogether(const Scene& scene) { return std::min(mostSets, scene.sets()); }
-
-/// Work of one dispatch, in node visits: some tens of milliseconds on two cores, far below any watchdog on a GPU.
-constexpr std::size_t visitsPerDispatch = 1 << 21;
-/// What fold() writes for one dispatch.
-constexpr std::size_t sourceBytes = std::size_t(16) << 20;
-
-std::vector<gl::Define> definesOf(const Scene& scene, const std::vector<std::array<double, 4>>& luminance)
+std::vector<std::array<float, 4>> luminanceTexels(const Scene& scene, const std::vector<std::array<double, 4>>& luminance)
 {
-    std::vector<gl::Define> defines{{"SETS", std::to_string(setsTogether(scene))},
-                                    {"DEGREE", std::to_string(scene.optics.degree)},
-                                    {"SCATTERERS", std::to_string(scene.scatterers())}};
-    if (!luminance.empty())
-        defines.push_back({"LUMINANCE", "1"});
-    return defines;
-}
-
-/// Chooses the sets of a dispatch.
-void setSets(gl::Program& program, const Scene& scene, int first, const std::vector<std::array<double, 4>>& luminance)
-{
-    program.set("firstSet", first);
-    program.set("totalSets", scene.sets());
-    if (luminance.empty())
-        return;
-    std::vector<std::array<float, 4>> values(setsTogether(scene) * 4);
-    for (std::size_t w = 0; w < values.size() && first * 4 + w < luminance.size(); ++w)
-        for (int c = 0; c < 4; ++c)
-            values[w][c] = static_cast<float>(luminance[first * 4 + w][c]);
-    program.setVec4s("luminance", values);
-}
-
-void bind(gl::Program& program, const char* name, int unit, const TexelBuffer& texels)
-{
-    program.set(name, unit);
-    texels.texture.bindUnit(static_cast<GLuint>(unit));
-}
-
-void bindSamples(gl::Program& program, const SunSamples& samples, Strides strides, int nodes)
-{
-    bind(program, "sunCosines", 0, samples.sunCosines);
-    bind(program, "azimuthCosines", 1, samples.azimuthCosines);
-    program.set("suns", samples.suns);
-    program.set("azimuths", samples.azimuths);
-    program.set("nodes", nodes);
-    program.set("strides", std::array<int, 3>{strides.ray, strides.sun, strides.azimuth});
+    std::vector<std::array<float, 4>> values(luminance.empty() ? 0 : scene.sets() * 4);
+    for (std::size_t w = 0; w < luminance.size(); ++w)
+        for (std::size_t c = 0; c < 4; ++c)
+            values[w][c] = static_cast<float>(luminance[w][c]);
+    return values;
 }
 
 std::vector<float> sunDepthTexels(const Scene& scene)
@@ -67,9 +25,9 @@ std::vector<float> sunDepthTexels(const Scene& scene)
     return values;
 }
 
-/// field: [scatterer][l][set], (2l+1)/(4 pi) lambda_l; otherwise [scatterer][angle][set], at the medium's angles.
 std::vector<float> phaseTexels(const Scene& scene, bool field)
 {
+    constexpr double pi = 3.14159265358979323846;
     const int sets = scene.sets(), wavelengths = scene.optics.wavelengths, degree = scene.optics.degree;
     const std::size_t rows = field ? degree + 1 : scene.medium.scatteringAngles.size();
     std::vector<float> values(scene.scatterers() * rows * sets * 4, 0.F);
@@ -82,6 +40,36 @@ std::vector<float> phaseTexels(const Scene& scene, bool field)
                           : scene.medium.species[s].phaseFunction[row * wavelengths + w]);
     }
     return values;
+}
+
+namespace {
+
+/// Sets of wavelengths that one dispatch carries along: more would spill registers and compile for ever.
+constexpr int mostSets = 4;
+int setsTogether(const Scene& scene) { return std::min(mostSets, scene.sets()); }
+
+std::vector<gl::Define> definesOf(const Scene& scene, const std::vector<std::array<double, 4>>& luminance)
+{
+    std::vector<gl::Define> defines{{"SETS", std::to_string(setsTogether(scene))},
+                                    {"DEGREE", std::to_string(scene.optics.degree)},
+                                    {"SCATTERERS", std::to_string(scene.scatterers())}};
+    if (!luminance.empty())
+        defines.push_back({"LUMINANCE", "1"});
+    return defines;
+}
+
+/// Chooses the sets of a dispatch of the direct gather.
+void setSets(gl::Program& program, const Scene& scene, int first, const std::vector<std::array<double, 4>>& luminance)
+{
+    program.set("firstSet", first);
+    program.set("totalSets", scene.sets());
+    if (luminance.empty())
+        return;
+    std::vector<std::array<float, 4>> values(setsTogether(scene) * 4);
+    for (std::size_t w = 0; w < values.size() && first * 4 + w < luminance.size(); ++w)
+        for (int c = 0; c < 4; ++c)
+            values[w][c] = static_cast<float>(luminance[first * 4 + w][c]);
+    program.setVec4s("luminance", values);
 }
 
 std::vector<gl::Define> directDefines(const Scene& scene, DirectGather::Purpose purpose,
@@ -150,28 +138,26 @@ void DirectGather::gather(const DirectRays& rays, const SunSamples& samples, Str
 
 ScatteredGather::ScatteredGather(const gl::Api& api, const Scene& scene, bool fromGround,
                                  const std::vector<std::array<double, 4>>& luminance)
-    : api_(api), scene_(scene), program_([&] {
-          auto defines = definesOf(scene, luminance);
-          defines.push_back({"FROM_GROUND", fromGround ? "1" : "0"});
-          return gl::ProgramBuilder(api, shaders::source).compute("scattered gather", "solve/scattered.comp", defines);
-      }()),
-      luminance_(luminance)
+    : api_(api), scene_(scene), sets_(luminance.empty() ? scene.sets() : 1), setsTogether_(std::min(mostSets, sets_)),
+      program_(gl::ProgramBuilder(api, shaders::source)
+                   .compute("scattered gather", "solve/scattered.comp",
+                            {{"SETS", std::to_string(setsTogether_)},
+                             {"DEGREE", std::to_string(scene.optics.degree)},
+                             {"FROM_GROUND", fromGround ? "1" : "0"}})),
+      luminance_(luminanceTexels(scene, luminance))
 {
 }
 
-void ScatteredGather::gather(const ScatteredRays& rays, const FineField& field, const SunSamples& samples, Strides strides,
+void ScatteredGather::gather(const ScatteredRays& rays, const FoldField& field, const SunSamples& samples, Strides strides,
                              gl::Buffer& results, const Breath& breath)
 {
     bindSamples(program_, samples, strides, rays.nodes);
     bind(program_, "rayNodes", 2, rays.rayNodes);
-    program_.set("fieldSuns", field.suns);
+    program_.set("fieldSuns", field.fineSunCount());
     program_.set("vLowest", static_cast<float>(field.vLowest));
 
-    const std::size_t perRay = std::size_t(rays.nodes + 1) * field.suns * (scene_.optics.degree + 2) * scene_.sets();
-    const std::size_t visits = std::size_t(samples.suns) * samples.azimuths * rays.nodes;
-    const std::size_t fitting = std::min(sourceBytes / 16, gl::BufferTexture::maxTexels(api_)) / perRay;
-    const int chunk = static_cast<int>(
-        std::min<std::size_t>(std::max<std::size_t>(1, std::min(fitting, visitsPerDispatch / visits)), rays.count));
+    const std::size_t perRay = std::size_t(rays.nodes + 1) * field.fineSunCount() * (scene_.optics.degree + 2) * sets_;
+    const int chunk = raysTogether(api_, samples, rays.count, rays.nodes, perRay);
     if (!source_ || sourceTexels_ < chunk * perRay) {
         source_.reset();
         source_.emplace(api_, "ray sources", chunk * perRay);
@@ -183,10 +169,11 @@ void ScatteredGather::gather(const ScatteredRays& rays, const FineField& field, 
     for (int first = 0; first < rays.count; first += chunk) {
         breath();
         const int count = std::min(chunk, rays.count - first);
-        source_->buffer.rewrite(count * perRay * 16, [&](void* to) { fold(field, rays, first, count, static_cast<float*>(to)); });
+        source_->buffer.rewrite(count * perRay * 16, [&](void* to) { fold(field, rays, first, count, luminance_, static_cast<float*>(to)); });
         program_.set("firstRay", first);
-        for (int set = 0; set < scene_.sets(); set += setsTogether(scene_)) {
-            setSets(program_, scene_, set, luminance_);
+        program_.set("totalSets", sets_);
+        for (int set = 0; set < sets_; set += setsTogether_) {
+            program_.set("firstSet", set);
             program_.dispatchOver(static_cast<unsigned>(samples.suns * samples.azimuths), static_cast<unsigned>(count));
             gl::memoryBarrier(api_);
         }

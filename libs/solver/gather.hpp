@@ -21,6 +21,14 @@ struct Strides {
 /// Called between dispatches, which are kept short: throws to stop.
 using Breath = std::function<void()>;
 
+// Tables as the gathers' shaders read them, wavelengths in sets of four.
+/// [altitude][elevation][set] of the table of sunlight
+std::vector<float> sunDepthTexels(const Scene& scene);
+/// field: [scatterer][l][set], (2l+1)/(4 pi) lambda_l; otherwise [scatterer][angle][set], at the medium's angles
+std::vector<float> phaseTexels(const Scene& scene, bool field);
+/// [padded wavelength] X, Y, Z, scotopic; empty if `luminance` is
+std::vector<std::array<float, 4>> luminanceTexels(const Scene& scene, const std::vector<std::array<double, 4>>& luminance);
+
 /// Light of the first event along rays: solve/direct.comp.
 class DirectGather
 {
@@ -55,14 +63,15 @@ public:
     ScatteredGather(const gl::Api& api, const Scene& scene, bool fromGround, const std::vector<std::array<double, 4>>& luminance);
 
     /// Fills `results`: rays x suns x azimuths texels, see DirectGather.
-    void gather(const ScatteredRays& rays, const FineField& field, const SunSamples& samples, Strides strides,
+    void gather(const ScatteredRays& rays, const FoldField& field, const SunSamples& samples, Strides strides,
                 gl::Buffer& results, const Breath& breath);
 
 private:
     gl::Api api_;
     const Scene scene_;
+    int sets_, setsTogether_; // of four wavelengths; of luminance there is one
     gl::Program program_;
-    std::vector<std::array<double, 4>> luminance_;
+    std::vector<std::array<float, 4>> luminance_;
     std::optional<TexelBuffer> source_; // kept between calls: it is large
     std::size_t sourceTexels_ = 0;
 };

@@ -37,7 +37,7 @@ public:
     enum class First { all, groundOnly };
     Sums direct(First which, const Breath& breath)
     {
-        const DirectRays rays(api_, scene_, starts_, settings_.directNodes, true);
+        const DirectRays rays(api_, DirectRayData(scene_, starts_, settings_.directNodes, true));
         DirectGather gather(api_, scene_, which == First::all ? DirectGather::Purpose::field : DirectGather::Purpose::groundField, {});
         gather.gather(rays, samples_, strides(), {}, results_, breath);
         return project();
@@ -49,7 +49,7 @@ public:
             rays_.emplace(api_, scene_, grid_, starts_, settings_.nodes);
             gather_.emplace(api_, scene_, true, std::vector<std::array<double, 4>>{});
         }
-        gather_->gather(*rays_, FineField(field, sweepRefinement), samples_, strides(), results_, breath);
+        gather_->gather(*rays_, FoldField(field, sweepRefinement), samples_, strides(), results_, breath);
         return project();
     }
 

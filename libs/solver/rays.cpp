@@ -59,23 +59,19 @@ std::vector<physics::RayNodes> traceRays(const Scene& scene, const std::vector<R
     return rays;
 }
 
-struct DirectRays::Data {
-    std::vector<float> nodes, weights, ground;
-    Data(const Scene& scene, const std::vector<RayStart>& starts, int nodeCount, bool field);
-};
-
-DirectRays::Data::Data(const Scene& scene, const std::vector<RayStart>& starts, int nodeCount, bool field)
+DirectRayData::DirectRayData(const Scene& scene, const std::vector<RayStart>& starts, int nodeCount, bool field)
+    : count(static_cast<int>(starts.size())), nodes(nodeCount)
 {
     const auto rays = traceRays(scene, starts, nodeCount);
     const int sets = scene.sets(), scatterers = scene.scatterers(), wavelengths = scene.optics.wavelengths;
-    nodes.resize(rays.size() * (nodeCount + 1) * 8);
+    rayNodes.resize(rays.size() * (nodeCount + 1) * 8);
     weights.resize(rays.size() * nodeCount * scatterers * sets * 4);
     for (std::size_t r = 0; r < rays.size(); ++r) {
         const auto& ray = rays[r];
         for (int k = 0; k <= nodeCount; ++k) {
             const auto& node = k < nodeCount ? ray.nodes[k] : ray.ground;
             const double h = k < nodeCount ? node.altitude : 0;
-            float* to = &nodes[(r * (nodeCount + 1) + k) * 8];
+            float* to = &rayNodes[(r * (nodeCount + 1) + k) * 8];
             putNode(to, node, ray.hitsGround ? 1 : 0);
             const double horizon = physics::horizonElevation(scene.profile.planet(), h);
             const auto [row, fraction] = scene.sun.row(h);
@@ -95,15 +91,9 @@ DirectRays::Data::Data(const Scene& scene, const std::vector<RayStart>& starts, 
     ground = groundTexels(scene, rays);
 }
 
-DirectRays::DirectRays(const gl::Api& api, const Data& data, int rays, int nodeCount)
-    : count(rays), nodes(nodeCount), rayNodes(api, "direct ray nodes", data.nodes), weights(api, "direct weights", data.weights),
-      ground(api, "direct ground", data.ground)
-{
-}
-
-DirectRays::DirectRays(const gl::Api& api, const Scene& scene, const std::vector<RayStart>& starts, int nodeCount,
-                       bool field)
-    : DirectRays(api, Data(scene, starts, nodeCount, field), static_cast<int>(starts.size()), nodeCount)
+DirectRays::DirectRays(const gl::Api& api, const DirectRayData& data)
+    : count(data.count), nodes(data.nodes), rayNodes(api, "direct ray nodes", data.rayNodes),
+      weights(api, "direct weights", data.weights), ground(api, "direct ground", data.ground)
 {
 }
 

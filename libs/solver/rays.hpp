@@ -38,19 +38,22 @@ struct Scene {
 /// Traces rays on all cores.
 std::vector<physics::RayNodes> traceRays(const Scene& scene, const std::vector<RayStart>& starts, int nodes);
 
-/// Rays for the light of the first event (solve/direct.comp).
-struct DirectRays {
+/// Rays for the light of the first event, in main memory.
+struct DirectRayData {
     int count, nodes;
-    TexelBuffer rayNodes; ///< [ray][node + ground][2]: sunScale, nuScale, mu, hits ground; horizon, inverse range, row, fraction
-    TexelBuffer weights;  ///< [ray][node][scatterer][set]
-    TexelBuffer ground;   ///< [ray][set]
+    std::vector<float> rayNodes; ///< [ray][node + ground][8]: sunScale, nuScale, mu, hits ground; horizon, inverse range, row, fraction
+    std::vector<float> weights;  ///< [ray][node][scatterer][padded wavelength]
+    std::vector<float> ground;   ///< [ray][padded wavelength]: transmittance times albedo / pi
     /// \param field weights go with truncated phase functions (source iteration); otherwise with the exact ones, on which
     ///              optical depths stay scaled: the TMS correction (Nakajima & Tanaka 1988, J. Quant. Spectrosc. 40, 51)
-    DirectRays(const gl::Api& api, const Scene& scene, const std::vector<RayStart>& starts, int nodes, bool field);
+    DirectRayData(const Scene& scene, const std::vector<RayStart>& starts, int nodes, bool field);
+};
 
-private:
-    struct Data;
-    DirectRays(const gl::Api& api, const Data& data, int rays, int nodes);
+/// The same as solve/direct.comp reads them.
+struct DirectRays {
+    int count, nodes;
+    TexelBuffer rayNodes, weights, ground;
+    DirectRays(const gl::Api& api, const DirectRayData& data);
 };
 
 /// Rays for the light of later events: nodes for scattered.comp, the rest for fold().

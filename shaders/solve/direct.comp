@@ -81,15 +81,14 @@ void main()
     for (int q = 0; q < SETS; ++q)
         storeSet(s.texel, q, max(total[q], vec4(0.0))); // a cut series may undershoot
 #else
-    float position = pow(acos(s.nu) / (2.0 * halfPi), 1.0 / 3.0) * float(angles - 1);
-    int angle = min(int(position), angles - 2);
+    PhasePlace angle = phasePlace(s.nu, angles);
     for (int i = 0; i < SCATTERERS; ++i) {
         vec4 radiance[SETS];
         for (int q = 0; q < SETS; ++q) {
             radiance[q] = lit[i * SETS + q];
-            int at = (i * angles + angle) * totalSets + setIndex(q);
+            int at = (i * angles + angle.index) * totalSets + setIndex(q);
             if (withPhase[i] != 0)
-                radiance[q] *= mix(texelFetch(phases, at), texelFetch(phases, at + totalSets), position - float(angle));
+                radiance[q] *= mix(texelFetch(phases, at), texelFetch(phases, at + totalSets), angle.fraction);
         }
 #ifdef LUMINANCE
         storeLuminance(resultOffsets[i] + s.texel, radiance);

@@ -1,4 +1,6 @@
 // What the gathers share: which ray, Sun and azimuth an invocation is for, and where its result goes.
+#include "lib/angles.glsl"
+
 layout(local_size_x = 64) in;
 
 // Wavelengths go four to a set. A dispatch serves SETS of the totalSets in all, from firstSet on; the last dispatch may meet fewer.
@@ -61,3 +63,18 @@ void storeLuminance(int texel, vec4 radiance[SETS])
     results[texel] = firstSet > 0 ? results[texel] + sum : sum;
 }
 #endif
+
+// Place in a table of phase functions, whose angles are pi (k / (count - 1))^3.
+struct PhasePlace {
+    int index;
+    float fraction;
+};
+
+PhasePlace phasePlace(float nu, int count)
+{
+    float position = pow(max(0.0, 0.5 - elevationOf(nu) / (2.0 * halfPi)), 1.0 / 3.0) * float(count - 1);
+    PhasePlace place;
+    place.index = min(int(position), count - 2);
+    place.fraction = position - float(place.index);
+    return place;
+}

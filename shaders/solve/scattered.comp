@@ -1,4 +1,5 @@
-// Radiance of light that has been scattered or reflected before, along each ray, for each Sun and azimuth.
+// Radiance of light that has been scattered or reflected before, along each ray, for each Sun and azimuth. The source may hold
+// luminance instead: one "set" of X, Y, Z and scotopic, to which the same sums apply.
 #include "solve/rays.glsl"
 #include "lib/sun.glsl"
 #include "lib/scattered.glsl"
@@ -47,10 +48,6 @@ void main()
     }
     for (int q = 0; q < SETS; ++q)
         total[q] = max(total[q], vec4(0.0)); // a series cut at DEGREE may undershoot beside a bright peak
-#ifdef LUMINANCE
-    storeLuminance(s.texel, total);
-#else
     for (int q = 0; q < SETS; ++q)
         storeSet(s.texel, q, total[q]);
-#endif
 }

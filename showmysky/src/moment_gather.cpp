@@ -2,7 +2,7 @@
 
 #include "air_entry.hpp"
 #include "base/parallel.hpp"
-#include "lanes.hpp"
+#include "base/lanes.hpp"
 #include "physics/harmonics.hpp"
 #include "physics/table_axes.hpp"
 #include <algorithm>
@@ -25,7 +25,7 @@ void transmit(const float* __restrict near, const float* __restrict far, float x
     for (int w = 0; w < stride; ++w) {
         const float below = near[w] + x * (near[stride + w] - near[w]);
         const float above = far[w] + x * (far[stride + w] - far[w]);
-        result[w] = visible * exp2Lane(-toLog2 * (below + y * (above - below)));
+        result[w] = visible * sky::base::exp2Lane(-toLog2 * (below + y * (above - below)));
     }
 }
 
@@ -73,7 +73,7 @@ void addNode(const float* const suns[4], const float weights[4], const float* wa
             const int at = (m + 1) * stride + w;
             sum += waves[m] * (weights[0] * a[at] + weights[1] * b[at] + weights[2] * c[at] + weights[3] * d[at]);
         }
-        radiance[w] += exp2Lane(level) * sum;
+        radiance[w] += sky::base::exp2Lane(level) * sum;
     }
 }
 

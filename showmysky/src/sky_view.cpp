@@ -1,6 +1,6 @@
 #include "sky_view.hpp"
 
-#include "lanes.hpp"
+#include "base/lanes.hpp"
 #include "physics/table_axes.hpp"
 #include <algorithm>
 #include <cmath>
@@ -100,7 +100,7 @@ ViewTable resampled(const ViewTable& table, int halfViews, int azimuths)
         if (logarithms)
             for (std::size_t i = 0; i < static_cast<std::size_t>(halfViews) * stride; ++i)
                 for (float& value : result.texels[static_cast<std::size_t>(half * halfViews) * stride + i])
-                    value = exp2Lane(value);
+                    value = sky::base::exp2Lane(value);
     }
     return result;
 }

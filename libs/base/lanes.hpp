@@ -12,7 +12,7 @@
 #define SKY_WIDEST_VECTORS
 #endif
 
-namespace showmysky {
+namespace sky::base {
 
 /// 2^x for -126 <= x <= 126 (beyond, the nearest of these): relative error < 3e-7, without a call. Taylor polynomial of
 /// degree 7 on -1/2 .. 1/2.
@@ -30,4 +30,16 @@ inline float exp2Lane(float x)
     return p * std::bit_cast<float>(exponent);
 }
 
-} // namespace showmysky
+/// log2 x for normal x > 0: absolute error < 1e-7 of 1 or of the result. Series of artanh on sqrt(1/2) .. sqrt(2).
+inline float log2Lane(float x)
+{
+    constexpr std::int32_t half = 0x3f3504f3; // bits of sqrt(1/2)
+    const auto bits = std::bit_cast<std::int32_t>(x);
+    const std::int32_t exponent = (bits - half) >> 23;
+    const float mantissa = std::bit_cast<float>(bits - (exponent << 23));
+    const float t = (mantissa - 1) / (mantissa + 1), z = t * t;
+    const float series = 1 + z * (1.f / 3 + z * (1.f / 5 + z * (1.f / 7 + z * (1.f / 9))));
+    return static_cast<float>(exponent) + 2.88539008f * t * series;
+}
+
+} // namespace sky::base

@@ -1,0 +1,42 @@
+#pragma once
+// What the gathers' dispatches have in common.
+
+#include "gl/program.hpp"
+#include "solver/gather.hpp"
+#include <algorithm>
+#include <array>
+#include <string>
+
+namespace sky::solver {
+
+/// Work of one dispatch, in node visits: some tens of milliseconds on two cores, far below any watchdog on a GPU.
+constexpr std::size_t visitsPerDispatch = 1 << 21;
+/// What is prepared for the rays of one dispatch.
+constexpr std::size_t sourceBytes = std::size_t(16) << 20;
+
+inline void bind(gl::Program& program, const char* name, int unit, const TexelBuffer& texels)
+{
+    program.set(name, unit);
+    texels.texture.bindUnit(static_cast<GLuint>(unit));
+}
+
+/// Uniforms of shaders/solve/rays.glsl.
+inline void bindSamples(gl::Program& program, const SunSamples& samples, Strides strides, int nodes)
+{
+    bind(program, "sunCosines", 0, samples.sunCosines);
+    bind(program, "azimuthCosines", 1, samples.azimuthCosines);
+    program.set("suns", samples.suns);
+    program.set("azimuths", samples.azimuths);
+    program.set("nodes", nodes);
+    program.set("strides", std::array<int, 3>{strides.ray, strides.sun, strides.azimuth});
+}
+
+/// Rays of one dispatch, for which `vec4sPerRay` are prepared each.
+inline int raysTogether(const gl::Api& api, const SunSamples& samples, int rays, int nodes, std::size_t vec4sPerRay)
+{
+    const std::size_t visits = std::size_t(samples.suns) * samples.azimuths * nodes;
+    const std::size_t fitting = std::min(sourceBytes / 16, gl::BufferTexture::maxTexels(api)) / vec4sPerRay;
+    return static_cast<int>(std::min<std::size_t>(std::max<std::size_t>(1, std::min(fitting, visitsPerDispatch / visits)), rays));
+}
+
+} // namespace sky::solver

@@ -1,0 +1,40 @@
+// Direct sunlight scattered once along each ray, for each Sun and azimuth, as luminance: sums what LitGather prepared,
+// each species apart, without its phase function or (withPhase) with it.
+#include "solve/rays.glsl"
+#include "lib/sun.glsl"
+
+uniform samplerBuffer lit;    // [ray of this dispatch][node][elevation][scatterer]: log2
+uniform samplerBuffer phases; // [scatterer][angle][set]: the first wavelength's are those of all
+uniform int elevations, angles;
+uniform float sunRadius;
+uniform int withPhase[SCATTERERS];
+uniform int resultOffsets[SCATTERERS]; // in texels of the result buffer
+
+void main()
+{
+    int first = (int(gl_GlobalInvocationID.y) + firstRay) * (nodes + 1) * 2;
+    Sample s = sampleOfInvocation(texelFetch(rayNodes, first).z);
+    if (!s.valid)
+        return;
+    vec4 radiance[SCATTERERS];
+    for (int i = 0; i < SCATTERERS; ++i)
+        radiance[i] = vec4(0.0);
+    for (int k = 0; k < nodes; ++k) {
+        vec4 node = texelFetch(rayNodes, first + 2 * k), place = texelFetch(rayNodes, first + 2 * k + 1);
+        float elevation = elevationOf(clamp(node.x * s.muSun + node.y * s.nu, -1.0, 1.0));
+        float visible = visibleDiscFraction(elevation - place.x, sunRadius);
+        if (visible <= 0.0)
+            continue;
+        float u = sunAxis(elevation, place.x, sunRadius, place.y) * float(elevations - 1);
+        int e = min(int(u), elevations - 2);
+        int at = ((int(gl_GlobalInvocationID.y) * nodes + k) * elevations + e) * SCATTERERS;
+        for (int i = 0; i < SCATTERERS; ++i)
+            radiance[i] += visible * exp2(mix(texelFetch(lit, at + i), texelFetch(lit, at + SCATTERERS + i), u - float(e)));
+    }
+    PhasePlace angle = phasePlace(s.nu, angles);
+    for (int i = 0; i < SCATTERERS; ++i) {
+        int at = (i * angles + angle.index) * totalSets;
+        float phase = withPhase[i] != 0 ? mix(texelFetch(phases, at).x, texelFetch(phases, at + totalSets).x, angle.fraction) : 1.0;
+        results[resultOffsets[i] + s.texel] = phase * radiance[i];
+    }
+}
