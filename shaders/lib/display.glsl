@@ -41,10 +41,10 @@ vec3 toneMapped(vec3 colour, float luminance, int curve)
 {
     // As film does: a little more contrast, and thereby colour, about a middle tone; then light that saturates.
     // A trace of light leaks between the channels, so that what is far too bright, the Sun itself, ends white.
-    const float middle = 0.3, contrast = 1.25, leak = 0.01;
+    const float middle = 0.3, leak = 0.01;
     if (curve == curveExponential) {
         vec3 leaked = mix(colour, vec3(luminance), leak);
-        return 1.0 - exp(-middle * pow(leaked / middle, vec3(contrast)));
+        return 1.0 - exp(-leaked * sqrt(sqrt(leaked / middle))); // the contrast: to the power of 5/4 about the middle
     }
     if (curve == curveReinhard)
         return colour / (1.0 + luminance);

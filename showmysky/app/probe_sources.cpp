@@ -1,5 +1,6 @@
 #include "probe_sources.hpp"
 #include "base/error.hpp"
+#include "model/glow_tables.hpp"
 #include "model/medium_tables.hpp"
 #include "model/scattering_table.hpp"
 #include "physics/geometry.hpp"
@@ -66,8 +67,6 @@ public:
 
     void answer(const Photometer::View& view, unsigned layers, double* values) override
     {
-        if (layers & Photometer::lightPollution)
-            throw sky::UsageError("The model '" + model_.directory().string() + "' holds no light pollution.");
         if (view.altitude > planet_.topOfAtmosphere)
             throw sky::UsageError("The textures end at the top of the atmosphere, " + std::to_string(planet_.topOfAtmosphere) +
                                   " m; use --source moments for views from above.");
@@ -81,6 +80,8 @@ public:
                 add(part, view, std::acos(std::clamp(nu, -1., 1.)), spectrum, xyz);
         if ((layers & Photometer::multipleScattering) && multiple_)
             add(*multiple_, view, 0, spectrum, xyz);
+        if (layers & Photometer::lightPollution)
+            addGlow(view, spectrum, xyz);
         if (spectral_) {
             std::copy(spectrum.begin(), spectrum.end(), values);
             return;
@@ -99,6 +100,17 @@ private:
         std::vector<float> slice;             ///< of the altitude and Sun below
         double altitude = -1, sun = 0;
     };
+
+    void addGlow(const Photometer::View& view, std::vector<double>& spectrum, std::vector<double>& xyz)
+    {
+        if (!glow_)
+            glow_.emplace(model_);
+        std::vector<double> value(static_cast<std::size_t>(glow_->channels()));
+        glow_->sample(glow_->slice(view.altitude), view.altitude, pi / 2 - view.viewZenithAngle, value.data());
+        auto& sum = glow_->isLuminance() ? xyz : spectrum;
+        for (std::size_t i = 0; i < value.size(); ++i)
+            sum[i] += value[i];
+    }
 
     void add(Part& part, const Photometer::View& view, double scatteringAngle, std::vector<double>& spectrum,
              std::vector<double>& xyz) const
@@ -126,6 +138,7 @@ private:
     Photometer photometer_;
     std::vector<Part> single_;
     std::optional<Part> multiple_;
+    std::optional<sky::model::GlowTable> glow_;
     bool spectral_ = false;
 };
 

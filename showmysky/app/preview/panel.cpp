@@ -178,6 +178,7 @@ void drawStatusLine(const PanelFacts& facts)
         ImGui::SameLine();
         ImGui::TextUnformatted(facts.activity.c_str());
     }
+    complaint(facts.refusal);
     ImGui::End();
 }
 
@@ -195,7 +196,6 @@ PanelWishes drawPanel(State& state, const PanelFacts& facts)
     PanelWishes wishes;
     if (section("Model and scene"))
         wishes = drawFiles(state, facts);
-    complaint(facts.refusal);
     if (section("Camera"))
         drawCamera(state.scene);
     if (section("Sun, Moon, altitude"))

@@ -36,7 +36,7 @@ std::string inWords(const Obscuration& o)
 
 Viewer::Viewer(State state)
     : state_(std::move(state)), window_(state_.windowWidth, state_.windowHeight, "showmysky"), interface_(window_),
-      context_(window_.loader()), developer_(context_.api()), exhibit_(window_.loader())
+      context_(window_.loader()), developer_(context_.api()), screen_(context_.api()), exhibit_(window_.loader())
 {
 }
 
@@ -159,8 +159,10 @@ void Viewer::updateSky()
     const auto result = stage_.advance(*sky, state_.scene, window_.framebuffer(), changed || pointer_.dragging(),
                                        [this] { context_.api()->Finish(); });
     const bool nowAtRest = result.atRest && !pointer_.dragging();
-    if (result.drawn)
+    if (result.drawn) {
+        screen_.lightChanged();
         exposure_ = automaticExposure(developer_.sample(sky->luminanceTexture()));
+    }
     if (pick_ && nowAtRest && sky->luminanceTexture() != 0) {
         const Point at = window_.inFramebuffer(*pick_);
         const Canvas size = window_.framebuffer();
@@ -182,7 +184,7 @@ PanelFacts Viewer::facts() const
     facts.fraction = exhibit_.waiting() ? exhibit_.fraction() : 0;
     facts.frameSeconds = frameSeconds_;
     facts.skySeconds = stage_.drawSeconds();
-    facts.screenSeconds = screenSeconds_;
+    facts.screenSeconds = screen_.seconds();
     facts.problem = exhibit_.problem();
     facts.note = note_;
     return facts;
@@ -190,20 +192,11 @@ PanelFacts Viewer::facts() const
 
 void Viewer::drawFrame()
 {
-    const auto start = Clock::now();
-    const auto& gl = context_.api();
-    const Canvas size = window_.framebuffer();
     const unsigned light = exhibit_.sky() ? exhibit_.sky()->luminanceTexture() : 0;
-    gl->BindFramebuffer(GL_FRAMEBUFFER, 0);
-    gl->Viewport(0, 0, size.width, size.height);
-    gl->ClearColor(0.08f, 0.08f, 0.1f, 1);
-    gl->Clear(GL_COLOR_BUFFER_BIT);
-    const auto& development = state_.scene.development;
-    if (light != 0)
-        developer_.draw(light, development, development.automatic ? exposure_ : development.exposure,
-                        {0, 0, size.width, size.height});
-    gl->Finish();
-    screenSeconds_ = secondsSince(start);
+    auto development = state_.scene.development;
+    if (development.automatic)
+        development.exposure = exposure_;
+    screen_.show(developer_, light, development, window_.framebuffer());
     if (chrome_) {
         const auto wishes = drawPanel(state_, facts());
         if (wishes.reload)

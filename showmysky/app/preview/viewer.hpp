@@ -8,6 +8,7 @@
 #include "interface.hpp"
 #include "light_meter.hpp"
 #include "panel.hpp"
+#include "screen.hpp"
 #include "stage.hpp"
 #include "state.hpp"
 #include "window.hpp"
@@ -44,6 +45,7 @@ private:
     Interface interface_;
     sky::gl::BorrowedContext context_;
     Developer developer_;
+    Screen screen_;
     Exhibit exhibit_;
     Stage stage_;
     Pointer pointer_;
@@ -52,7 +54,7 @@ private:
     std::optional<Point> pick_;
     std::optional<Reading> reading_;
     std::string note_;
-    double exposure_ = 0, frameSeconds_ = 0, screenSeconds_ = 0;
+    double exposure_ = 0, frameSeconds_ = 0;
     int framesDue_ = 3; ///< widgets need some frames to settle after an event
     bool chrome_ = true, atRest_ = false, quit_ = false;
 };
