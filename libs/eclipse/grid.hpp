@@ -6,30 +6,48 @@
 
 namespace sky::eclipse {
 
-/// Linear interpolation between points `index` and `index + 1` of a line.
-struct Between {
-    int index;
-    float share;
-    bool mirrored; ///< on the other side of the mirror plane
+/// Four neighbouring points of a line and their weights; negative indices are those beyond the mirror plane.
+struct Neighbours {
+    int index[4];
+    float weight[4];
+    bool mirrored; ///< the place is on the other side of the mirror plane: swap the sides
 };
 
-/// A grid of lines along (x) and across (y) the mirror plane. Beyond its ends the value at the end counts.
+/// Points of a line, increasing, m, with cubic interpolation between them: Hermite's, the slope at a point that of the parabola
+/// through it and its neighbours. Beyond the ends the value at the end counts.
+class Line
+{
+public:
+    Line() = default;
+    /// \param mirrored the line begins at 0, and goes on beyond as its own image
+    explicit Line(std::vector<float> points, bool mirrored = false);
+
+    const std::vector<float>& points() const { return points_; }
+    int count() const { return static_cast<int>(points_.size()); }
+    bool mirrored() const { return mirrored_; }
+    Neighbours at(float position) const;
+    /// With `factor` intervals for every one.
+    Line refined(int factor) const;
+
+private:
+    struct Interval {
+        int index[4];
+        float start, inverseGap;
+        float slopes[2][4]; ///< at its two ends, times the gap, of the four neighbours
+    };
+    std::vector<float> points_;
+    std::vector<Interval> intervals_;
+    bool mirrored_ = false;
+};
+
+/// The points over the ground: lines along the mirror plane (x) and away from it (y).
 struct Grid {
-    std::vector<float> x, y; ///< m, increasing
-    bool mirrored = false;   ///< y begins on the mirror plane: negative y are known from positive ones
-
-    int along() const { return static_cast<int>(x.size()); }
-    int across() const { return static_cast<int>(y.size()); }
-    int points() const { return along() * across(); }
-
-    Between alongAt(float position) const;
-    Between acrossAt(float position) const;
+    Line x, y;
+    int points() const { return x.count() * y.count(); }
 };
 
 /// Points clustered at the observer and at the shadow.
 Grid makeGrid(const Frame& frame, const FieldSettings& settings);
-/// The same with `factor` intervals for every one.
-Grid refined(const Grid& grid, int factor);
 
 /// Midpoints of equal parts of the turn, in quarters: with t_q = (q + 1/2) 2 pi / count, q < count / 4, the azimuths
 /// t_q, pi - t_q, pi + t_q, -t_q have indices q, count/2 - 1 - q, count/2 + q, count - 1 - q.

@@ -115,42 +115,42 @@ void project(const Turn& turn, const Lane* planes, const float* factors, float w
     }
 }
 
-Shift::Shift(const Grid& from, const Grid& to, const float distance, const double azimuth)
+Shift::Shift(const Grid& from, const Grid& to, const float x, const float y)
 {
-    const auto dx = distance * static_cast<float>(std::cos(azimuth)), dy = distance * static_cast<float>(std::sin(azimuth));
-    for (const float x : to.x)
-        along.push_back(from.alongAt(x + dx));
-    for (const float y : to.y)
-        across.push_back(from.acrossAt(y + dy));
+    along.reserve(to.x.points().size());
+    across.reserve(to.y.points().size());
+    for (const float point : to.x.points())
+        along.push_back(from.x.at(point + x));
+    for (const float point : to.y.points())
+        across.push_back(from.y.at(point + y));
 }
 
 SKY_WIDEST_VECTORS
 void addShifted(const Shift& shift, int sourceAlong, const Lane* plane, const Lane* mirror, const Lane* weights, int addends, Lane* row,
                 Lane* sums)
 {
-    const Between* across = shift.across.data();
-    const Between* along = shift.along.data();
+    const Neighbours* across = shift.across.data();
+    const Neighbours* along = shift.along.data();
     const int columns = static_cast<int>(shift.along.size()), rows = static_cast<int>(shift.across.size());
-    const int first = along[0].index, last = along[columns - 1].index + 1;
+    const int first = along[0].index[0], last = along[columns - 1].index[3];
     for (int j = 0; j < rows; ++j) {
-        const Lane* near = (across[j].mirrored ? mirror : plane) + across[j].index * sourceAlong;
-        const Lane* far = near + sourceAlong;
-        const float share = across[j].share;
+        const Neighbours& n = across[j];
+        const Lane *own = n.mirrored ? mirror : plane, *other = n.mirrored ? plane : mirror;
+        const Lane* line[4];
+        for (int k = 0; k < 4; ++k)
+            line[k] = n.index[k] < 0 ? other - n.index[k] * sourceAlong : own + n.index[k] * sourceAlong;
         for (int i = first; i <= last; ++i)
-            row[i] = near[i] + share * (far[i] - near[i]);
+            row[i] = n.weight[0] * line[0][i] + n.weight[1] * line[1][i] + n.weight[2] * line[2][i] + n.weight[3] * line[3][i];
         Lane* out = sums + j * columns;
-        if (!weights) {
-            for (int i = 0; i < columns; ++i) {
-                const Lane* at = row + along[i].index;
-                out[i] += at[0] + along[i].share * (at[1] - at[0]);
-            }
-            continue;
-        }
         for (int i = 0; i < columns; ++i) {
-            const Lane* at = row + along[i].index;
-            const Lane value = at[0] + along[i].share * (at[1] - at[0]);
-            for (int s = 0; s < addends; ++s)
-                out[s * rows * columns + i] += weights[s] * value;
+            const Neighbours& m = along[i];
+            const Lane value = m.weight[0] * row[m.index[0]] + m.weight[1] * row[m.index[1]] + m.weight[2] * row[m.index[2]] +
+                               m.weight[3] * row[m.index[3]];
+            if (!weights)
+                out[i] += value;
+            else
+                for (int s = 0; s < addends; ++s)
+                    out[s * rows * columns + i] += weights[s] * value;
         }
     }
 }

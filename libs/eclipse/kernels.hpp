@@ -23,8 +23,10 @@ void project(const Turn& turn, const Lane* planes, const float* factors, float w
 
 /// A shift of a plane of points: where each point of `to` finds itself on `from`.
 struct Shift {
-    std::vector<Between> along, across;
-    Shift(const Grid& from, const Grid& to, float distance, double azimuth);
+    std::vector<Neighbours> along, across;
+    Shift() = default;
+    /// \param x, y the shift, m
+    Shift(const Grid& from, const Grid& to, float x, float y);
 };
 
 /// Adds to `sums`, [addend][target points], the shifted plane times `weights`, [addend]; the plane alone if `weights` is null.

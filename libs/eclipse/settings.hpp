@@ -6,20 +6,20 @@ namespace sky::eclipse {
 /// and uneclipsed light have in common cancel, so that much less than the ordinary solver's settings will do.
 struct FieldSettings {
     int altitudes = 12;       ///< levels before the medium asks for more
-    int along = 25;           ///< points in the mirror plane, towards the Sun and away, >= 2
-    int across = 12;          ///< points away from the mirror plane, >= 2
+    int along = 17;           ///< points in the mirror plane, towards the Sun and away, >= 2
+    int across = 9;           ///< points away from the mirror plane, >= 2
     double reach = 1200e3;    ///< m: how far the grid goes beyond the observer and the shadow
-    double core = 60e3;       ///< m: within about this distance of both the points stand evenly, then ever wider
+    double core = 50e3;       ///< m: within about this distance of both the points stand evenly, then ever wider
     int degree = 4;           ///< of the harmonics, at most mostDegree and that of the optics
     int groundDirections = 4; ///< zenith angles from nadir to the horizon
     int limbDirections = 3;   ///< from the horizon to the horizontal
     int skyDirections = 6;    ///< from the horizontal to the zenith
     int azimuths = 8;         ///< over the whole turn, a multiple of 4
     int directNodes = 24;     ///< along a ray, for sunlight
-    int nodes = 8;            ///< along a ray, for scattered light
+    int nodes = 10;           ///< along a ray, for scattered light
     int sunlightAltitudes = 32; ///< levels at which sunlight is known
     int sunlightRefinement = 2; ///< points of sunlight per point of the grid, along and across
-    int viewNodes = 16;       ///< along a ray that is seen
+    int viewNodes = 20;       ///< along a ray that is seen
 };
 
 /// Largest degree of the harmonics.

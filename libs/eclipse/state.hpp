@@ -38,11 +38,11 @@ struct ScatteredField::State {
 
     void shine();           ///< sunlight at all points
     Light gather() const;   ///< the light of the next event
-    void gatherLevel(int level, int group, Light& light) const;
+    void gatherLevel(int level, Light& light) const;
     void directRay(const GridRay& ray, int group, struct Scratch& scratch) const;
     void scatteredRay(const GridRay& ray, int group, struct Scratch& scratch) const;
     void add(const Light& light);
-    double close();         ///< adds the tail of the series; returns the largest relative change since the last estimate
+    bool close();           ///< adds the tail of the series, if that is known well enough
 };
 
 } // namespace sky::eclipse

@@ -67,18 +67,19 @@ private:
     float share_ = 0;
 };
 
-/// Four points around a place and their weights.
+/// The points around a place and their weights.
 struct Corners {
-    int point[4];
-    float weight[4];
-    bool mirrored;
+    int point[16];
+    float weight[16];
+    bool mirrored[16];
     Corners(const Grid& grid, float x, float y)
     {
-        const Between i = grid.alongAt(x), j = grid.acrossAt(y);
-        mirrored = j.mirrored;
-        for (int c = 0; c < 4; ++c) {
-            point[c] = (j.index + c / 2) * grid.along() + i.index + c % 2;
-            weight[c] = (c / 2 ? j.share : 1 - j.share) * (c % 2 ? i.share : 1 - i.share);
+        const Neighbours i = grid.x.at(x), j = grid.y.at(y);
+        for (int c = 0; c < 16; ++c) {
+            const int row = j.index[c / 4];
+            point[c] = std::abs(row) * grid.x.count() + i.index[c % 4];
+            weight[c] = j.weight[c / 4] * i.weight[c % 4];
+            mirrored[c] = j.mirrored != (row < 0);
         }
     }
 };
@@ -151,8 +152,8 @@ ViewLight ScatteredField::view(const std::vector<ViewRay>& views, const std::vec
                     for (int a = 0; a < count; ++a) {
                         const auto i = static_cast<std::size_t>(a);
                         const Corners corners(s.grid, distance * std::cos(turned[i]), observer + distance * std::sin(turned[i]));
-                        for (int c = 0; c < 4; ++c)
-                            fold.add(corners.point[c], corners.weight[c], corners.mirrored, &cosines[i * (static_cast<std::size_t>(degree) + 1)],
+                        for (int c = 0; c < 16; ++c)
+                            fold.add(corners.point[c], corners.weight[c], corners.mirrored[c], &cosines[i * (static_cast<std::size_t>(degree) + 1)],
                                      &sines[i * (static_cast<std::size_t>(degree) + 1)], sums[i]);
                     }
                 }
@@ -165,7 +166,7 @@ ViewLight ScatteredField::view(const std::vector<ViewRay>& views, const std::vec
                     const auto i = static_cast<std::size_t>(a);
                     const Corners corners(s.grid, distance * std::cos(turned[i]), observer + distance * std::sin(turned[i]));
                     Lane sum{};
-                    for (int c = 0; c < 4; ++c)
+                    for (int c = 0; c < 16; ++c)
                         sum += corners.weight[c] * s.total.irradiance[static_cast<std::size_t>(g) * s.points() + static_cast<std::size_t>(corners.point[c])];
                     store(sum, v, a, g, result.groundEclipsed, result.groundUneclipsed);
                 }
