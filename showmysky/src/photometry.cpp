@@ -1,4 +1,5 @@
 #include "showmysky/photometry.hpp"
+#include "glow.hpp"
 #include "photometry_gather.hpp"
 #include "photometry_model.hpp"
 #include "physics/quadrature.hpp"
@@ -74,6 +75,8 @@ struct Photometer::Inside {
         : sky(directory), method(how),
           gather(sky.medium, sky.optics, sky.sun, sky.moments ? &*sky.moments : nullptr)
     {
+        if (Glow::whyMissing(sky.model).empty())
+            glow.emplace(sky.model, sky.medium);
     }
 
     int wavelengths() const { return sky.medium.wavelengthCount(); }
@@ -109,6 +112,7 @@ struct Photometer::Inside {
     }
 
     PhotometryModel sky;
+    std::optional<Glow> glow; ///< if the model has it
     Method method;
     FastGather gather;
     mutable std::mutex mutex;
@@ -124,9 +128,8 @@ void Photometer::Inside::checkLayers(const unsigned layers) const
     if (layers & ~(wholeSky | lightPollution))
         throw Error(ErrorKind::settings, "The layers " + std::to_string(layers) + " are unknown; expected a sum of 1 (zero order), 2 "
                                          "(single scattering), 4 (multiple scattering) and 8 (light pollution).");
-    if (layers & lightPollution)
-        throw Error(ErrorKind::unsupported, "The model '" + sky.model.directory().string() +
-                                                "' holds no light pollution, and this version can't compute it.");
+    if ((layers & lightPollution) && !glow)
+        throw Error(ErrorKind::unsupported, Glow::whyMissing(sky.model));
     if ((layers & (multipleScattering | zeroOrder)) && !sky.moments)
         throw Error(ErrorKind::unsupported,
                     "The model '" + sky.model.directory().string() +
@@ -195,6 +198,11 @@ void Photometer::Inside::radiance(const View& view, const unsigned layers, Scrat
         addGround(start, nu, scratch, result);
     for (int w = 0; w < wavelengths(); ++w)
         result[w] = std::max(0., result[w] * sky.medium.solarIrradiance[w]);
+    if (layers & lightPollution) {
+        glow->radiance(view.altitude, std::cos(view.viewZenithAngle), scratch.light.data());
+        for (int w = 0; w < wavelengths(); ++w)
+            result[w] += scratch.light[w];
+    }
 }
 
 void Photometer::Inside::transmittance(const physics::Optics& optics, double altitude, double mu, Scratch& scratch, double* result) const

@@ -27,7 +27,7 @@ enum showmysky_photometry_layer {
     SHOWMYSKY_ZERO_ORDER = 1,          /* the ground in direct view; the Sun's disc is in no layer */
     SHOWMYSKY_SINGLE_SCATTERING = 2,
     SHOWMYSKY_MULTIPLE_SCATTERING = 4,
-    SHOWMYSKY_LIGHT_POLLUTION = 8,     /* not in models yet */
+    SHOWMYSKY_LIGHT_POLLUTION = 8,     /* of a ground that glows evenly with 1 cd/m^2 */
     SHOWMYSKY_WHOLE_SKY = 7
 };
 

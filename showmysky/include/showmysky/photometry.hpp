@@ -23,7 +23,7 @@ public:
         zeroOrder = 1,          ///< the ground in direct view, lit by the Sun and the sky; the Sun's disc is in no layer
         singleScattering = 2,   ///< one scattering in the air
         multipleScattering = 4, ///< all others: more scatterings, reflections by the ground
-        lightPollution = 8,     ///< not in models yet: asking for it is an error
+        lightPollution = 8,     ///< of a ground that glows evenly with 1 cd m^-2, the ground itself included; in no other layer
         wholeSky = zeroOrder | singleScattering | multipleScattering
     };
 
