@@ -40,27 +40,11 @@ inline Stencil mirroredStencil(double position, int n)
             {t * (-0.5 + t * (1 - 0.5 * t)), 1 + t * t * (-2.5 + 1.5 * t), t * (0.5 + t * (2 - 1.5 * t)), t * t * (-0.5 + 0.5 * t)}};
 }
 
-/// Interpolates positive quantities that span decades: the stencil applied to logarithms. Where a neighbour is zero, or nothing
-/// is known of its logarithm, linearly between the middle two.
+/// Interpolates positive quantities that span decades, such as light along the axis of the Sun: the stencil of a uniform axis,
+/// applied to logarithms. A zero is an edge of darkness somewhere in the cells beside it, and nothing is known of its logarithm: an
+/// outer neighbour that is dark is replaced by what the parabola through the others foretells, or less; between a lit and a dark node
+/// the light goes on falling as it did, times a straight line to zero.
 ///   values  the four neighbours, >= 0
-inline double interpolateLog(const Stencil& s, const std::array<double, 4>& values)
-{
-    bool positive = true;
-    for (int i = 0; i < 4; ++i)
-        positive = positive && (s.weight[i] == 0 || values[i] > 0);
-    if (positive) {
-        double sum = 0;
-        for (int i = 0; i < 4; ++i)
-            if (s.weight[i] != 0)
-                sum += s.weight[i] * std::log(values[i]);
-        return std::exp(sum);
-    }
-    // On a uniform axis the stencil's first moment is the place between the middle nodes.
-    double t = 0;
-    for (int i = 0; i < 4; ++i)
-        t += s.weight[i] * (i - 1);
-    t = std::clamp(t, 0., 1.);
-    return (1 - t) * values[1] + t * values[2];
-}
+double interpolateLog(const Stencil& s, const std::array<double, 4>& values);
 
 } // namespace sky::physics

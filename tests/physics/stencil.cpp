@@ -88,17 +88,36 @@ TEST_CASE("stencil: exponentials are exact in logarithms, and stay positive wher
     }
 }
 
-TEST_CASE("stencil: beside a zero it is the straight line between the middle two, never negative, never NaN")
+TEST_CASE("stencil: light goes on falling towards a dark node as it fell before it, and is zero there")
 {
-    for (const double x : {0., 0.25, 1., 1.5, 1.999, 2., 2.5, 3., 3.75, 4.}) {
+    const auto value = [](int i) { return i < 2 ? 0. : std::exp(3. * i); };
+    for (const double x : {0., 0.25, 1., 1.25, 1.5, 1.999, 2., 2.5, 3., 3.75, 4.}) {
         const Stencil s = uniformStencil(x, 5);
-        const auto value = [](int i) { return i < 2 ? 0. : double(i); };
-        const int k = s.index[1];
         INFO("position " << x);
         const double result = interpolateLog(s, gathered(s, value));
-        CHECK(std::isfinite(result));
-        if (x < 3) // some neighbour with weight is zero, or a node itself is meant
-            CHECK(result == Approx(value(k) + (x - k) * (value(k + 1) - value(k))).margin(1e-13));
+        if (x <= 1)
+            CHECK(result == 0);
+        else if (x < 2) // one node of the cell is dark
+            CHECK(result == Approx((x - 1) * std::exp(3 * x)).epsilon(1e-12));
+        else // the dark neighbour is replaced by what the others foretell: a straight line of logarithms
+            CHECK(result == Approx(std::exp(3 * x)).epsilon(1e-12));
         CHECK(interpolateLog(s, {0, 0, 0, 0}) == 0);
+    }
+}
+
+TEST_CASE("stencil: beside darkness it is continuous, finite, positive, and no brighter than the brighter node")
+{
+    const std::vector<double> values{0, 0, 1e-9, 4, 4.1, 0, 0, 7, 0, 1e-30, 2};
+    double before = 0;
+    for (double x = 0; x <= 10; x += 1. / 512) {
+        const Stencil s = uniformStencil(x, 11);
+        const double result = interpolateLog(s, gathered(s, [&](int i) { return values[static_cast<std::size_t>(i)]; }));
+        INFO("position " << x);
+        CHECK(std::isfinite(result));
+        CHECK(result >= 0);
+        const auto k = static_cast<std::size_t>(x);
+        CHECK(result <= 1.35 * std::max(values[k], values[std::min<std::size_t>(k + 1, 10)]) + 1e-12);
+        CHECK(std::abs(result - before) < 0.5); // the steepest: 4 falling to 1e-9 within a cell
+        before = result;
     }
 }

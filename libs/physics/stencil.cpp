@@ -1,0 +1,49 @@
+#include "physics/stencil.hpp"
+
+namespace sky::physics {
+
+namespace {
+
+/// The logarithm beyond `near`, on the other side of which `far` and perhaps `farther` follow: falling at least as a straight line.
+double foretold(double near, double far, const double* farther)
+{
+    const double straight = 2 * near - far;
+    return farther ? std::min(straight, 3 * near - 3 * far + *farther) : straight;
+}
+
+/// At a share `x` of the way from a dark node to a lit one, behind which `next` stands.
+double intoDarkness(double x, double lit, double next)
+{
+    const double fall = next > 0 ? std::max(0., std::log(next / lit)) : 0;
+    return x * lit * std::exp(-(1 - x) * fall);
+}
+
+/// An outer neighbour as it enters the curve between `near` and `far`: one that lies decades deeper than these differ would make
+/// the cubic swing up on the other side.
+double limited(double outer, double near, double far)
+{
+    return std::max(outer, near - 2 - 3 * std::abs(far - near));
+}
+
+} // namespace
+
+double interpolateLog(const Stencil& s, const std::array<double, 4>& values)
+{
+    const auto counts = [&](int i) { return s.weight[i] != 0 && values[i] > 0; };
+    // The first moment of the stencil is the place between the middle nodes.
+    double t = 0;
+    for (int i = 0; i < 4; ++i)
+        t += s.weight[i] * (i - 1);
+    t = std::clamp(t, 0., 1.);
+    if (!(values[1] > 0) || !(values[2] > 0))
+        return values[2] > 0 ? intoDarkness(t, values[2], values[3]) : values[1] > 0 ? intoDarkness(1 - t, values[1], values[0]) : 0;
+    const double l1 = std::log(values[1]), l2 = std::log(values[2]);
+    double l0 = counts(0) ? std::log(values[0]) : 0, l3 = counts(3) ? std::log(values[3]) : 0;
+    if (!counts(0))
+        l0 = foretold(l1, l2, counts(3) ? &l3 : nullptr);
+    if (!counts(3))
+        l3 = foretold(l2, l1, counts(0) ? &l0 : nullptr);
+    return std::exp(s.weight[0] * limited(l0, l1, l2) + s.weight[1] * l1 + s.weight[2] * l2 + s.weight[3] * limited(l3, l2, l1));
+}
+
+} // namespace sky::physics
