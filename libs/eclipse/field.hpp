@@ -34,6 +34,10 @@ struct ViewRay {
     double groundDistance = 0; ///< m, from below the camera to below that place: 0 unless the camera is above the air
 };
 
+/// Rays that are seen, traced: what of a view does not depend on Sun, Moon and azimuth. Keep it while the camera's altitude stays.
+class TracedViews;
+std::shared_ptr<const TracedViews> traceViews(const AirRays& air, const std::vector<ViewRay>& views);
+
 /// Light in directions of view, [ray][azimuth][wavelength], per unit solar irradiance.
 struct ViewLight {
     int azimuths = 0, wavelengths = 0;
@@ -66,6 +70,7 @@ public:
 
     /// The sky of a finished field.
     ///   azimuths  rad, in the camera's frame: from North (x) over West (y)
+    ViewLight view(const TracedViews& views, const std::vector<double>& azimuths) const;
     ViewLight view(const std::vector<ViewRay>& views, const std::vector<double>& azimuths) const;
 
 private:

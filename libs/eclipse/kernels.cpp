@@ -156,6 +156,29 @@ void addShifted(const Shift& shift, int sourceAlong, const Lane* plane, const La
 }
 
 SKY_WIDEST_VECTORS
+void foldPoint(int degree, const Lane* lower, const Lane* upper, float share, const Lane* coefficients, Lane* terms)
+{
+    for (int k = 0; k <= 2 * degree; ++k)
+        terms[k] = Lane{};
+    for (int l = 0; l <= degree; ++l)
+        for (int m = 0; m <= l; ++m) {
+            const int i = cosineIndex(l, m), k = sineIndex(degree, l, m);
+            terms[m] += coefficients[i] * (lower[i] + share * (upper[i] - lower[i]));
+            if (m > 0)
+                terms[degree + m] += coefficients[i] * (lower[k] + share * (upper[k] - lower[k]));
+        }
+}
+
+SKY_WIDEST_VECTORS
+void addFolded(int degree, const Lane* terms, float weight, bool mirrored, const float* cosines, const float* sines, Lane& sum)
+{
+    Lane value = terms[0];
+    for (int m = 1; m <= degree; ++m)
+        value += cosines[m] * terms[m] + (mirrored ? -sines[m] : sines[m]) * terms[degree + m];
+    sum += weight * value;
+}
+
+SKY_WIDEST_VECTORS
 void mix(const Lane* lower, const Lane* upper, float share, int points, Lane* result)
 {
     for (int p = 0; p < points; ++p)

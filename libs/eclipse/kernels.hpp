@@ -34,6 +34,12 @@ struct Shift {
 void addShifted(const Shift& shift, int sourceAlong, const Lane* plane, const Lane* mirror, const Lane* weights, int addends, Lane* row,
                 Lane* sums);
 
+/// Where light of a level comes from: factors of cos(m phi), then of sin(m phi), m >= 1, at one point.
+///   lower, upper  [harmonic];  terms  [2 degree + 1], written; else as radiate()
+void foldPoint(int degree, const Lane* lower, const Lane* upper, float share, const Lane* coefficients, Lane* terms);
+/// Adds `weight` times the folded light of a point in a direction to `sum`; `mirrored` swaps the sides.
+void addFolded(int degree, const Lane* terms, float weight, bool mirrored, const float* cosines, const float* sines, Lane& sum);
+
 /// upper share + lower (1 - share).
 void mix(const Lane* lower, const Lane* upper, float share, int points, Lane* result);
 

@@ -15,10 +15,10 @@ struct FieldSettings {
     int limbDirections = 3;   ///< from the horizon to the horizontal
     int skyDirections = 6;    ///< from the horizontal to the zenith
     int azimuths = 8;         ///< over the whole turn, a multiple of 4
-    int directNodes = 24;     ///< along a ray, for sunlight
+    int directNodes = 20;     ///< along a ray, for sunlight
     int nodes = 10;           ///< along a ray, for scattered light
     int sunlightAltitudes = 32; ///< levels at which sunlight is known
-    int sunlightRefinement = 2; ///< points of sunlight per point of the grid, along and across
+    int sunlightRefinement = 1; ///< points of sunlight per point of the grid, along and across
     int viewNodes = 20;       ///< along a ray that is seen
 };
 

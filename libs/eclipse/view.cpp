@@ -34,32 +34,14 @@ public:
     void add(int point, float weight, bool mirrored, const float* cosines, const float* sines, Lane& sum)
     {
         Lane* terms = &folded_[static_cast<std::size_t>(point * terms_)];
-        if (!known_[static_cast<std::size_t>(point)]) {
-            fold(point, terms);
-            known_[static_cast<std::size_t>(point)] = 1;
-        }
-        Lane value = terms[0];
-        for (int m = 1; m <= degree_; ++m)
-            value += cosines[m] * terms[m] + (mirrored ? -sines[m] : sines[m]) * terms[degree_ + m];
-        sum += weight * value;
+        auto& known = known_[static_cast<std::size_t>(point)];
+        if (!known)
+            foldPoint(degree_, lower_ + point * allHarmonics(degree_), upper_ + point * allHarmonics(degree_), share_, coefficients_, terms);
+        known = 1;
+        addFolded(degree_, terms, weight, mirrored, cosines, sines, sum);
     }
 
 private:
-    void fold(int point, Lane* terms) const
-    {
-        const int harmonics = allHarmonics(degree_);
-        const Lane *a = lower_ + point * harmonics, *b = upper_ + point * harmonics;
-        std::fill_n(terms, terms_, Lane{});
-        int sine = physics::harmonicCount(degree_);
-        for (int l = 0, lm = 0; l <= degree_; ++l)
-            for (int m = 0; m <= l; ++m, ++lm) {
-                terms[m] += coefficients_[lm] * (a[lm] + share_ * (b[lm] - a[lm]));
-                if (m > 0) {
-                    terms[degree_ + m] += coefficients_[lm] * (a[sine] + share_ * (b[sine] - a[sine]));
-                    ++sine;
-                }
-            }
-    }
     int degree_, terms_;
     Lanes folded_; // [point][term]
     std::vector<char> known_;
@@ -98,12 +80,52 @@ float ViewLight::groundRatio(int ray, int azimuth, int wavelength) const
     return ratioOf(groundEclipsed[i], groundUneclipsed[i]);
 }
 
+class TracedViews
+{
+public:
+    struct Ray {
+        bool hitsGround;
+        std::vector<Place> places; ///< of the nodes
+        float groundDistance;
+        Lanes coefficients; ///< [group][node][lm]
+    };
+    std::vector<Ray> rays;
+};
+
+std::shared_ptr<const TracedViews> traceViews(const AirRays& air, const std::vector<ViewRay>& views)
+{
+    auto result = std::make_shared<TracedViews>();
+    result->rays.resize(views.size());
+    base::parallel([&](int thread, int threads) {
+        physics::RayTracer tracer(air.profile, air.optics, 2);
+        for (std::size_t v = static_cast<std::size_t>(thread); v < views.size(); v += static_cast<std::size_t>(threads)) {
+            const ViewRay& view = views[v];
+            const auto ray = tracer.trace(view.altitude, view.mu, air.settings.viewNodes, view.hitsGround);
+            const auto distanceOf = [&](const physics::RayNodes::Node& n) {
+                return view.groundDistance + groundDistance(air.profile.planet().radius, n.sunScale, n.nuScale, view.mu);
+            };
+            auto& traced = result->rays[v];
+            traced.hitsGround = view.hitsGround;
+            for (const auto& node : ray.nodes)
+                traced.places.push_back(air.levels.place(node.altitude, distanceOf(node)));
+            traced.groundDistance = static_cast<float>(distanceOf(ray.ground));
+            traced.coefficients = air.coefficientsOf(ray);
+        }
+    });
+    return result;
+}
+
 ViewLight ScatteredField::view(const std::vector<ViewRay>& views, const std::vector<double>& azimuths) const
+{
+    return view(*traceViews(*state_->air, views), azimuths);
+}
+
+ViewLight ScatteredField::view(const TracedViews& views, const std::vector<double>& azimuths) const
 {
     const State& s = *state_;
     const AirRays& air = *s.air;
     const int wavelengths = air.wavelengths, degree = air.degree, count = static_cast<int>(azimuths.size());
-    const std::size_t size = views.size() * azimuths.size() * static_cast<std::size_t>(wavelengths);
+    const std::size_t size = views.rays.size() * azimuths.size() * static_cast<std::size_t>(wavelengths);
     ViewLight result{count, wavelengths, std::vector<float>(size), std::vector<float>(size), std::vector<float>(size), std::vector<float>(size)};
     if (s.total.moments.empty())
         return result;
@@ -129,45 +151,40 @@ ViewLight ScatteredField::view(const std::vector<ViewRay>& views, const std::vec
     const float observer = static_cast<float>(s.frame.observer());
     const int terms = physics::harmonicCount(degree);
     base::parallel([&](int thread, int threads) {
-        physics::RayTracer tracer(air.profile, air.optics, 2);
         Fold fold(degree, s.grid.points());
         Lanes sums;
-        for (std::size_t v = static_cast<std::size_t>(thread); v < views.size(); v += static_cast<std::size_t>(threads)) {
-            const ViewRay& view = views[v];
-            const auto ray = tracer.trace(view.altitude, view.mu, air.settings.viewNodes, view.hitsGround);
-            const Lanes coefficients = air.coefficientsOf(ray);
-            const int nodes = static_cast<int>(ray.nodes.size());
-            const auto distanceOf = [&](const physics::RayNodes::Node& n) {
-                return static_cast<float>(view.groundDistance +
-                                          groundDistance(air.profile.planet().radius, n.sunScale, n.nuScale, view.mu));
-            };
+        std::vector<Corners> corners;
+        const auto standAt = [&](float distance) { // the points around a place on the ray, in every azimuth
+            corners.clear();
+            for (const float azimuth : turned)
+                corners.emplace_back(s.grid, distance * std::cos(azimuth), observer + distance * std::sin(azimuth));
+        };
+        for (std::size_t v = static_cast<std::size_t>(thread); v < views.rays.size(); v += static_cast<std::size_t>(threads)) {
+            const auto& ray = views.rays[v];
+            const int nodes = static_cast<int>(ray.places.size());
             for (int g = 0; g < air.groups; ++g) {
                 sums.assign(azimuths.size(), Lane{});
                 for (int k = 0; k < nodes; ++k) {
-                    const auto& node = ray.nodes[static_cast<std::size_t>(k)];
-                    const float distance = distanceOf(node);
-                    const Place place = air.levels.place(node.altitude, 0);
+                    const Place& place = ray.places[static_cast<std::size_t>(k)];
+                    standAt(place.distance);
                     fold.begin(s.momentsAt(s.total, g, place.level), s.momentsAt(s.total, g, place.level + 1), place.share,
-                               &coefficients[static_cast<std::size_t>((g * nodes + k) * terms)]);
-                    for (int a = 0; a < count; ++a) {
-                        const auto i = static_cast<std::size_t>(a);
-                        const Corners corners(s.grid, distance * std::cos(turned[i]), observer + distance * std::sin(turned[i]));
+                               &ray.coefficients[static_cast<std::size_t>((g * nodes + k) * terms)]);
+                    for (std::size_t a = 0; a < azimuths.size(); ++a) {
+                        const std::size_t first = a * (static_cast<std::size_t>(degree) + 1);
                         for (int c = 0; c < 16; ++c)
-                            fold.add(corners.point[c], corners.weight[c], corners.mirrored[c], &cosines[i * (static_cast<std::size_t>(degree) + 1)],
-                                     &sines[i * (static_cast<std::size_t>(degree) + 1)], sums[i]);
+                            fold.add(corners[a].point[c], corners[a].weight[c], corners[a].mirrored[c], &cosines[first], &sines[first], sums[a]);
                     }
                 }
                 for (int a = 0; a < count; ++a)
                     store(sums[static_cast<std::size_t>(a)], v, a, g, result.eclipsed, result.uneclipsed);
-                if (!view.hitsGround)
+                if (!ray.hitsGround)
                     continue;
-                const float distance = distanceOf(ray.ground);
+                standAt(ray.groundDistance);
+                const Lane* irradiance = &s.total.irradiance[static_cast<std::size_t>(g) * s.points()];
                 for (int a = 0; a < count; ++a) {
-                    const auto i = static_cast<std::size_t>(a);
-                    const Corners corners(s.grid, distance * std::cos(turned[i]), observer + distance * std::sin(turned[i]));
                     Lane sum{};
                     for (int c = 0; c < 16; ++c)
-                        sum += corners.weight[c] * s.total.irradiance[static_cast<std::size_t>(g) * s.points() + static_cast<std::size_t>(corners.point[c])];
+                        sum += corners[static_cast<std::size_t>(a)].weight[c] * irradiance[corners[static_cast<std::size_t>(a)].point[c]];
                     store(sum, v, a, g, result.groundEclipsed, result.groundUneclipsed);
                 }
             }

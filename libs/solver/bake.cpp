@@ -15,16 +15,6 @@ namespace {
 /// What a run needs whatever the tables' sizes: driver, medium, moments, one dispatch's sources.
 constexpr std::size_t fixedMemory = std::size_t(130) << 20;
 
-/// XYZ and scotopic luminance of unit radiance per unit solar irradiance: colour matching times the solar spectrum.
-std::vector<std::array<double, 4>> luminanceOf(const physics::Medium& medium)
-{
-    auto weights = physics::luminanceWeights(medium.wavelengthsNm);
-    for (std::size_t w = 0; w < weights.size(); ++w)
-        for (double& component : weights[w])
-            component *= medium.solarIrradiance[w];
-    return weights;
-}
-
 model::Axis sunAxis(const BakeJob& job, int count)
 {
     model::Axis axis{"sunZenithAngle", "1", {}, {"sun-from-horizon", {{"scale", physics::sunTableScale}, {"vDark", job.vDark}}}};
@@ -33,32 +23,10 @@ model::Axis sunAxis(const BakeJob& job, int count)
     return axis;
 }
 
-model::TableSpec scatteringSpec(const BakeJob& job, const std::string& name, bool luminance, const std::string& quantity)
-{
-    const auto& size = job.description.scatteringSize;
-    model::TableSpec spec;
-    spec.name = name;
-    spec.quantity = quantity;
-    spec.unit = luminance ? "cd m^-2" : "W m^-2 sr^-1 nm^-1";
-    model::Axis view{"viewZenithAngle", "1", {}, {"horizon-halves", {{"scale", physics::horizonAngleScale}}}};
-    for (int k = 0; k < size.viewZenithAngle; ++k) // the share of the way from nadir to horizon, then from horizon to zenith
-        view.nodes.push_back(k);
-    spec.axes = {{"altitude", "m", job.altitudes(), {"horizon-distance", {}}},
-                 sunAxis(job, size.sunZenithAngle),
-                 view,
-                 {"relativeAzimuth", "rad", physics::azimuthNodes(size.dotViewSun), {"uniform", {}}}};
-    spec.rowAxes = 2;
-    spec.channels = luminance ? model::Channels::Luminance : model::Channels::SpectralRadiance;
-    if (!luminance)
-        spec.wavelengthsNm = job.scene.medium.wavelengthsNm;
-    spec.significandBits = job.options.texturePrecisionBits;
-    return spec;
-}
-
 /// Views first .. first + count - 1 of those from an altitude.
 std::vector<RayStart> viewsFrom(const BakeJob& job, double altitude, int first, int count)
 {
-    const auto mu = physics::viewMuNodes(job.scene.profile.planet(), altitude, job.description.scatteringSize.viewZenithAngle);
+    const auto mu = physics::viewMuNodes(job.scene.profile.planet(), altitude, job.size.viewZenithAngle);
     std::vector<RayStart> starts;
     for (int k = first; k < first + count; ++k)
         starts.push_back({altitude, mu[k], k < static_cast<int>(mu.size()) / 2});
@@ -69,8 +37,8 @@ std::vector<RayStart> viewsFrom(const BakeJob& job, double altitude, int first, 
 struct Layer {
     int views, suns, azimuths, viewsAtOnce;
     Layer(const BakeJob& job, std::size_t bytesPerTexel)
-        : views(job.description.scatteringSize.viewZenithAngle), suns(job.description.scatteringSize.sunZenithAngle),
-          azimuths(job.description.scatteringSize.dotViewSun), viewsAtOnce(views)
+        : views(job.size.viewZenithAngle), suns(job.size.sunZenithAngle),
+          azimuths(job.size.dotViewSun), viewsAtOnce(views)
     {
         // A quarter of what the fixed needs leave: results exist on the GPU, in its copy, and in the layer they go to.
         if (const std::size_t most = job.options.maxMemoryBytes)
@@ -93,9 +61,9 @@ SunSamples samplesOf(const gl::Api& api, const BakeJob& job, double altitude)
 {
     std::vector<float> suns, azimuths;
     for (const double e : physics::sunElevationNodes(job.scene.profile.planet(), altitude, job.vDark,
-                                                     job.description.scatteringSize.sunZenithAngle))
+                                                     job.size.sunZenithAngle))
         suns.push_back(static_cast<float>(std::sin(e)));
-    for (const double phi : physics::azimuthNodes(job.description.scatteringSize.dotViewSun))
+    for (const double phi : physics::azimuthNodes(job.size.dotViewSun))
         azimuths.push_back(static_cast<float>(std::cos(phi)));
     return {api, suns, azimuths};
 }
@@ -123,9 +91,39 @@ void writeLayer(const BakeJob& job, model::TableWriter table, int layer, bool lu
 
 } // namespace
 
+std::vector<std::array<double, 4>> luminanceOf(const physics::Medium& medium)
+{
+    auto weights = physics::luminanceWeights(medium.wavelengthsNm);
+    for (std::size_t w = 0; w < weights.size(); ++w)
+        for (double& component : weights[w])
+            component *= medium.solarIrradiance[w];
+    return weights;
+}
+
+model::TableSpec BakeJob::spec(const std::string& name, const std::string& quantity, bool luminance) const
+{
+    model::TableSpec result;
+    result.name = name;
+    result.quantity = quantity;
+    result.unit = luminance ? "cd m^-2" : "W m^-2 sr^-1 nm^-1";
+    model::Axis view{"viewZenithAngle", "1", {}, {"horizon-halves", {{"scale", physics::horizonAngleScale}}}};
+    for (int k = 0; k < size.viewZenithAngle; ++k) // the share of the way from nadir to horizon, then from horizon to zenith
+        view.nodes.push_back(k);
+    result.axes = {{"altitude", "m", altitudes(), {"horizon-distance", {}}},
+                 sunAxis(*this, size.sunZenithAngle),
+                 view,
+                 {"relativeAzimuth", "rad", physics::azimuthNodes(size.dotViewSun), {"uniform", {}}}};
+    result.rowAxes = 2;
+    result.channels = luminance ? model::Channels::Luminance : model::Channels::SpectralRadiance;
+    if (!luminance)
+        result.wavelengthsNm = scene.medium.wavelengthsNm;
+    result.significandBits = options.texturePrecisionBits;
+    return result;
+}
+
 std::vector<double> BakeJob::altitudes() const
 {
-    auto all = physics::altitudeNodes(scene.profile.planet(), description.scatteringSize.altitude);
+    auto all = physics::altitudeNodes(scene.profile.planet(), size.altitude);
     if (options.altitudeLayers)
         all = {all.begin() + options.altitudeLayers->first, all.begin() + options.altitudeLayers->second + 1};
     return all;
@@ -151,9 +149,10 @@ void bakeSingleScattering(const gl::Api& api, const BakeJob& job, model::ModelWr
         withPhase.push_back(smooth);
         const bool luminance = !job.options.radiance && (smooth || achromatic);
         ways.push_back(!luminance ? Way::spectra : smooth && !job.scene.medium.species[s].achromatic ? Way::luminanceOfSpectra : Way::luminance);
-        tables.push_back(writer.table(scatteringSpec(job, "single-scattering/" + scatterer.name, luminance,
-                                                     smooth ? "single scattering, phase function included"
-                                                            : "single scattering, to be multiplied by the phase function")));
+        tables.push_back(writer.table(job.spec("single-scattering/" + scatterer.name,
+                                              smooth ? "single scattering, phase function included"
+                                                            : "single scattering, to be multiplied by the phase function",
+                                              luminance)));
     }
     const auto any = [&](Way way) { return std::find(ways.begin(), ways.end(), way) != ways.end(); };
     std::optional<LitGather> luminance;
@@ -209,7 +208,17 @@ void bakeMultipleScattering(const gl::Api& api, const BakeJob& job, const physic
                             model::ModelWriter& writer, const std::function<void(double)>& breath)
 {
     const bool luminance = !job.options.radiance;
-    auto table = writer.table(scatteringSpec(job, name, luminance, "multiple scattering"));
+    auto table = writer.table(job.spec(name, "multiple scattering", luminance));
+    const std::size_t texels = std::size_t(job.size.viewZenithAngle) * job.size.sunZenithAngle * job.size.dotViewSun;
+    gatherMultipleScattering(api, job, field, luminance, breath, [&](int layer, const std::vector<float>& values) {
+        writeLayer(job, table, layer, luminance, values.data(), job.size.sunZenithAngle, texels);
+    });
+}
+
+void gatherMultipleScattering(const gl::Api& api, const BakeJob& job, const physics::Moments& field, const bool luminance,
+                              const std::function<void(double)>& breath,
+                              const std::function<void(int layer, const std::vector<float>& texels)>& use)
+{
     ScatteredGather gather(api, job.scene, false,
                            luminance ? luminanceOf(job.scene.medium) : std::vector<std::array<double, 4>>{});
     const FoldField fine(field, job.settings.refinement);
@@ -227,7 +236,7 @@ void bakeMultipleScattering(const gl::Api& api, const BakeJob& job, const physic
                           [&] { breath(double(layer) / double(altitudes.size())); });
             shape.place(results.download().data(), first, count, floats, values);
         }
-        writeLayer(job, table, static_cast<int>(layer), luminance, values.data(), shape.suns, shape.texels(shape.views));
+        use(static_cast<int>(layer), values);
     }
     breath(1);
 }

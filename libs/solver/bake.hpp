@@ -3,6 +3,7 @@
 #include "model/writer.hpp"
 #include "solver/iterate.hpp"
 #include "solver/solve.hpp"
+#include <array>
 
 namespace sky::solver {
 
@@ -20,8 +21,14 @@ struct BakeJob {
     const Scene& scene;
     BakeSettings settings;
     double vDark; ///< dark end of the axis of the Sun: physics::sunElevationNodes
+    atmo::SizeScattering size; ///< texels
     std::vector<double> altitudes() const; ///< of the layers asked for
+    /// A 4D table of that size: luminance, or spectral radiance after --radiance.
+    model::TableSpec spec(const std::string& name, const std::string& quantity, bool luminance) const;
 };
+
+/// XYZ and scotopic luminance of unit radiance per unit solar irradiance: colour matching times the solar spectrum. [wavelength]
+std::vector<std::array<double, 4>> luminanceOf(const physics::Medium& medium);
 
 /// Single scattering, a table per scatterer: "single-scattering/NAME".
 void bakeSingleScattering(const gl::Api& api, const BakeJob& job, model::ModelWriter& writer,
@@ -30,6 +37,13 @@ void bakeSingleScattering(const gl::Api& api, const BakeJob& job, model::ModelWr
 /// Light of the field's events scattered once more: the table `name`.
 void bakeMultipleScattering(const gl::Api& api, const BakeJob& job, const physics::Moments& field, const std::string& name,
                             model::ModelWriter& writer, const std::function<void(double)>& breath);
+
+/// The layers of such a table, one after another, without writing them.
+///   use  gets the layer and its texels [sun][view][azimuth]: luminance (X, Y, Z, scotopic), or radiance per unit solar irradiance at each
+///        wavelength, padded to whole sets of four
+void gatherMultipleScattering(const gl::Api& api, const BakeJob& job, const physics::Moments& field, bool luminance,
+                              const std::function<void(double)>& breath,
+                              const std::function<void(int layer, const std::vector<float>& texels)>& use);
 
 /// Transmittance from each altitude to space, "transmittance".
 void bakeTransmittance(const BakeJob& job, model::ModelWriter& writer);

@@ -1,4 +1,5 @@
 #include "solver/plan.hpp"
+#include "solver/eclipse_table.hpp"
 #include "solver/light_pollution.hpp"
 #include <algorithm>
 
@@ -12,6 +13,9 @@ constexpr double qualityFactor(const std::string& quality)
 {
     return quality == "draft" ? 0.4 : quality == "fine" ? 5 : quality == "reference" ? 60 : 1;
 }
+
+/// Seconds for one field of an eclipse of three events and eight wavelengths, on two cores.
+constexpr double eclipseSeconds = 0.07;
 
 bool anyPositive(const atmo::Spectrum& spectrum)
 {
@@ -50,11 +54,13 @@ Needs needsOf(const atmo::Description& d, const Options& options)
     decide(n.lightPollution, Part::LightPollution, !glowSpectrum(d, ignored).empty(),
            d.lightPollutionRadiance.empty() ? "the description gives no `light pollution relative radiance`"
                                             : "the ground gives no visible light");
-    n.skipped.push_back({nameOf(Part::Eclipsed), "this version does not compute it"});
+    const auto moonless = noEclipse(d);
+    decide(n.eclipsed, Part::Eclipsed, scatters && lit && several && !moonless,
+           !scatters || !lit ? dark : !several ? "only one order of scattering was asked for" : moonless.value_or(""));
     n.everyEvent = scatters && lit && several &&
                    (options.saveScatteringDensity || options.saveScatteringDensity2FromGround || options.saveDeltaScattering ||
                     options.saveAccumulatedScattering);
-    n.field = scatters && lit && (n.moments || n.multiple || n.irradiance || n.everyEvent);
+    n.field = scatters && lit && (n.moments || n.multiple || n.eclipsed || n.irradiance || n.everyEvent);
     return n;
 }
 
@@ -76,6 +82,8 @@ Work workOf(const atmo::Description& d, const Options& options, const Needs& nee
         w.single = points * 40 * quality / directVisits;
     if (needs.multiple)
         w.multiple = points * 14 * quality / scatteredVisits;
+    if (needs.eclipsed)
+        w.eclipsed = eclipseStates(d, options) * eclipseSeconds * std::ceil(d.wavelengths.count / 8.) * (1 + events) / 4 * quality;
     if (needs.lightPollution)
         w.lightPollution = (0.08 + 5e-6 * d.lightPollutionSize.altitude * d.lightPollutionSize.zenithAngle) * sets *
                            (options.saveLightPollution ? 8 : 1);
@@ -117,6 +125,16 @@ std::vector<PlanItem> plan(const atmo::Description& d, const Options& options)
         items.push_back({"multiple-scattering", true, options.radiance ? "as spectral radiance" : "as XYZ and scotopic luminance",
                          size(50e6 + layer * (options.radiance ? sets : 1)),
                          size(points * bytes * compressed * (options.radiance ? d.wavelengths.count : 4)), work.multiple});
+    if (needs.eclipsed) {
+        const auto s = eclipseTableSize(d);
+        const double texels = double(s.viewZenithAngle) * s.dotViewSun * s.sunZenithAngle;
+        const double layers = points / std::max(1., double(d.scatteringSize.viewZenithAngle) * d.scatteringSize.dotViewSun *
+                                                        d.scatteringSize.sunZenithAngle * sets);
+        items.push_back({"eclipsed-double-scattering", true,
+                         options.radiance ? "as spectral radiance, all orders from the second" : "as XYZ and scotopic luminance, all orders from the second",
+                         size(80e6 + texels * d.wavelengths.count * 6 * 4),
+                         size(texels * layers * bytes * compressed * (options.radiance ? d.wavelengths.count : 4)), work.eclipsed});
+    }
     if (needs.lightPollution) {
         const double texels = double(d.lightPollutionSize.altitude) * d.lightPollutionSize.zenithAngle;
         items.push_back({"light-pollution", true,

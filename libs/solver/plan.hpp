@@ -8,19 +8,20 @@ namespace sky::solver {
 /// What a run has to compute, after leaving out what was not asked for and what the scene does not need.
 struct Needs {
     bool field = false, everyEvent = false;
-    bool moments = false, transmittance = false, irradiance = false, single = false, multiple = false, lightPollution = false;
+    bool moments = false, transmittance = false, irradiance = false, single = false, multiple = false, eclipsed = false,
+         lightPollution = false;
     std::vector<model::Skipped> skipped;
 };
 Needs needsOf(const atmo::Description& description, const Options& options);
 
 /// Estimated seconds of each stage on two cores of a software driver, for the progress bar and --dry-run.
 struct Work {
-    double medium = 0, sunlight = 0, moments = 0, transmittance = 0, irradiance = 0, single = 0, multiple = 0, lightPollution = 0,
-           debugging = 0, writing = 0;
+    double medium = 0, sunlight = 0, moments = 0, transmittance = 0, irradiance = 0, single = 0, multiple = 0, eclipsed = 0,
+           lightPollution = 0, debugging = 0, writing = 0;
     double total() const
     {
-        return medium + sunlight + moments + transmittance + irradiance + single + multiple + lightPollution + debugging +
-               writing;
+        return medium + sunlight + moments + transmittance + irradiance + single + multiple + eclipsed + lightPollution +
+               debugging + writing;
     }
 };
 Work workOf(const atmo::Description& description, const Options& options, const Needs& needs);

@@ -7,6 +7,7 @@
 #include "model/moment_tables.hpp"
 #include "solver/bake.hpp"
 #include "solver/debug_tables.hpp"
+#include "solver/eclipse_table.hpp"
 #include "solver/light_pollution.hpp"
 #include "solver/medium_tables.hpp"
 #include "solver/plan.hpp"
@@ -102,7 +103,8 @@ void solve(const atmo::Description& description, const Options& options, gl::Hea
     const physics::SunTable sun(profile, optics, medium.sunAngularRadius);
     const Scene scene{medium, profile, optics, sun};
     const physics::MomentGrid grid(profile, largestExtinctions(optics), quality.moments.altitudes, quality.moments.suns);
-    const BakeJob job{description, options, scene, quality.bake, physics::sunTableDarkEnd(grid.darkDepth())};
+    const BakeJob job{description, options, scene, quality.bake, physics::sunTableDarkEnd(grid.darkDepth()),
+                      description.scatteringSize};
     model::describeOptics(manifest, optics, quality.moments.truncatePeaks);
 
     // 3. The radiation field: moments of every event, summed.
@@ -135,6 +137,10 @@ void solve(const atmo::Description& description, const Options& options, gl::Hea
     if (needs.multiple) {
         breath = stages.begin("multiple scattering", stages.work().multiple);
         bakeMultipleScattering(api, job, field.total, "multiple-scattering", writer, breath);
+    }
+    if (needs.eclipsed) {
+        breath = stages.begin("eclipses", stages.work().eclipsed);
+        bakeEclipsed(api, job, field.total, writer, breath);
     }
     if (needs.lightPollution) {
         breath = stages.begin("light pollution", stages.work().lightPollution);

@@ -36,7 +36,7 @@ TEST_CASE("edge scene: a vacuum lets all light pass, and what it lacks is skippe
     for (const auto& skipped : run.model.manifest().skipped)
         if (skipped.why == "nothing in this atmosphere scatters")
             dark.insert(skipped.what);
-    CHECK(dark == std::set<std::string>{"moments", "single", "multiple"});
+    CHECK(dark == std::set<std::string>{"moments", "single", "multiple", "eclipsed"});
 }
 
 TEST_CASE("edge scene: smoke that only absorbs has a transmittance and no sky", "[gl]")

@@ -39,6 +39,7 @@ TEST_CASE("options: a model holds the parts that were asked for, and says what i
         {{Part::Single}, {"single-scattering/air"}},
         {{Part::Moments}, {"moments", "moments-ground-irradiance"}},
         {{Part::Multiple}, {"multiple-scattering"}},
+        {{Part::Eclipsed}, {"eclipsed-double-scattering"}},
     };
     std::set<std::string> everything = medium;
     for (const auto& c : cases) {
@@ -58,7 +59,7 @@ TEST_CASE("options: a model holds the parts that were asked for, and says what i
     CHECK_FALSE(all.listener.fell);
     CHECK(all.listener.stages == std::vector<std::string>{"medium", "sunlight", "moments", "transmittance",
                                                           "irradiance", "single scattering", "multiple scattering",
-                                                          "writing"});
+                                                          "eclipses", "writing"});
 }
 
 TEST_CASE("options: a range of altitude layers is those layers of the whole model", "[gl]")

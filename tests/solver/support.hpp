@@ -63,7 +63,9 @@ struct SceneText {
                "\nscattering texture size for dot(view,sun): " + azimuths +
                "\nscattering texture size for SZA: " + suns + "\nscattering texture size for altitude: " + altitudes +
                "\ntransmittance texture size for VZA: 4\ntransmittance texture size for altitude: 3\n"
-               "irradiance texture size for SZA: 4\nirradiance texture size for altitude: 2\n" +
+               "irradiance texture size for SZA: 4\nirradiance texture size for altitude: 2\n"
+               "eclipsed double scattering texture size for VZA: 4\neclipsed double scattering texture size for SZA: 2\n"
+               "eclipsed double scattering texture size for relative azimuth: 3\n" +
                species;
     }
     atmo::Description parse() const { return atmo::parse(text(), "scene.atmo", "."); }

@@ -1,0 +1,222 @@
+#include "solver/eclipse_table.hpp"
+#include "eclipse/field.hpp"
+#include "physics/stencil.hpp"
+#include "physics/table_axes.hpp"
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace sky::solver {
+
+namespace {
+
+/// Most altitudes at which quotients are computed; between them cubics of logarithms, at equal shares of the axes of Sun and view.
+constexpr int solvedAltitudes = 12;
+/// Quotients below this are noise: totality leaves 1e-4 or more.
+constexpr float leastRatio = 1e-9f;
+/// Share of the stage's time that goes into quotients, for the progress bar.
+constexpr double solving = 0.9;
+
+/// What a table needs of the field (docs/eclipses.md has the errors that go with it).
+eclipse::FieldSettings tableSettings(const std::string& quality)
+{
+    eclipse::FieldSettings s;
+    if (quality == "draft") {
+        s.altitudes = 8;
+        s.along = 13;
+        s.across = 7;
+        s.degree = 3;
+        s.groundDirections = 3;
+        s.limbDirections = 2;
+        s.skyDirections = 4;
+        s.directNodes = 12;
+        s.nodes = 6;
+        s.viewNodes = 10;
+    } else if (quality == "normal") {
+        s.along = 15;
+        s.across = 8;
+        s.directNodes = 16;
+        s.nodes = 8;
+        s.viewNodes = 16;
+    } else {
+        const bool finest = quality == "reference";
+        s.altitudes = finest ? 20 : 16;
+        s.along = finest ? 33 : 21;
+        s.across = finest ? 17 : 11;
+        s.degree = 5;
+        s.groundDirections = 6;
+        s.limbDirections = 4;
+        s.skyDirections = 8;
+        s.azimuths = 12;
+        s.directNodes = finest ? 48 : 32;
+        s.nodes = finest ? 16 : 12;
+        s.viewNodes = finest ? 40 : 24;
+    }
+    return s;
+}
+
+int solvedCount(const atmo::SizeScattering& size) { return std::min(size.altitude, solvedAltitudes); }
+
+/// ln of the quotients of all Suns, views and azimuths at one of the altitudes that are solved.
+class Ratios
+{
+public:
+    explicit Ratios(const BakeJob& job)
+        : job_(job), rays_(eclipse::traceAir(job.scene.medium, job.scene.profile, job.scene.optics, tableSettings(job.options.quality)))
+    {
+    }
+
+    /// \param breath called with the number of Suns done
+    std::vector<float> at(double altitude, const std::function<void(int)>& breath) const
+    {
+        const auto& planet = job_.scene.profile.planet();
+        const int views = job_.size.viewZenithAngle;
+        std::vector<eclipse::ViewRay> rays;
+        const auto mu = physics::viewMuNodes(planet, altitude, views);
+        for (int k = 0; k < views; ++k)
+            rays.push_back({altitude, mu[k], k < views / 2, 0});
+        const auto azimuths = physics::azimuthNodes(job_.size.dotViewSun);
+        const auto suns = physics::sunElevationNodes(planet, altitude, job_.vDark, job_.size.sunZenithAngle);
+        const auto traced = eclipse::traceViews(*rays_, rays);
+        std::vector<float> result;
+        result.reserve(suns.size() * rays.size() * azimuths.size() * job_.scene.optics.wavelengths);
+        for (std::size_t j = 0; j < suns.size(); ++j) {
+            breath(static_cast<int>(j));
+            eclipse::ScatteredField field(rays_, job_.scene.sun, bodies(altitude, suns[j]), orders());
+            while (!field.step())
+                breath(static_cast<int>(j));
+            const auto light = field.view(*traced, azimuths);
+            for (int v = 0; v < views; ++v)
+                for (int a = 0; a < light.azimuths; ++a)
+                    for (int w = 0; w < light.wavelengths; ++w)
+                        result.push_back(std::log(std::max(leastRatio, light.skyRatio(v, a, w))));
+        }
+        return result;
+    }
+
+private:
+    physics::EclipseBodies bodies(double altitude, double sunElevation) const
+    {
+        physics::EclipseBodies b;
+        b.planet = job_.scene.profile.planet();
+        b.cameraAltitude = altitude;
+        b.sunDirection = b.moonDirection = {std::cos(sunElevation), 0, std::sin(sunElevation)};
+        b.sunDistance = job_.description.sunDistance;
+        b.moonDistance = job_.description.moonDistance;
+        b.moonRadius = job_.description.moonRadius;
+        b.sunAngularRadius = job_.scene.medium.sunAngularRadius;
+        return b;
+    }
+    eclipse::Orders orders() const
+    {
+        eclipse::Orders result;
+        result.orders = job_.description.scatteringOrders;
+        result.all = job_.description.allScatteringOrders;
+        return result;
+    }
+
+    const BakeJob& job_;
+    std::shared_ptr<const eclipse::AirRays> rays_;
+};
+
+} // namespace
+
+std::optional<std::string> noEclipse(const atmo::Description& d)
+{
+    physics::EclipseBodies bodies;
+    bodies.planet = {d.planetRadius, d.atmosphereHeight};
+    bodies.cameraAltitude = d.atmosphereHeight;
+    bodies.sunDistance = d.sunDistance;
+    bodies.moonDistance = d.moonDistance;
+    bodies.moonRadius = d.moonRadius;
+    bodies.sunAngularRadius = d.sunAngularRadius();
+    try {
+        physics::makeShadow(bodies);
+    } catch (const RangeError& error) {
+        return error.what();
+    }
+    return {};
+}
+
+atmo::SizeScattering eclipseTableSize(const atmo::Description& d)
+{
+    const auto& asked = d.eclipsedDoubleScatteringSize;
+    return {std::max(4, (asked.viewZenithAngle + 1) / 2 * 2), std::max(2, asked.relativeAzimuth), std::max(2, asked.sunZenithAngle),
+            d.scatteringSize.altitude};
+}
+
+int eclipseStates(const atmo::Description& d, const Options& options)
+{
+    const auto size = eclipseTableSize(d);
+    const int solved = solvedCount(size);
+    if (!options.altitudeLayers)
+        return solved * size.sunZenithAngle;
+    // Stencils of the layers asked for reach one solved altitude farther on both sides.
+    const double step = double(solved - 1) / std::max(1, size.altitude - 1);
+    const int first = std::max(0, static_cast<int>(options.altitudeLayers->first * step) - 1);
+    const int last = std::min(solved - 1, static_cast<int>(options.altitudeLayers->second * step) + 2);
+    return (last - first + 1) * size.sunZenithAngle;
+}
+
+void bakeEclipsed(const gl::Api& api, const BakeJob& ordinary, const physics::Moments& field, model::ModelWriter& writer,
+                  const std::function<void(double)>& breath)
+{
+    BakeJob job = ordinary;
+    job.size = eclipseTableSize(job.description);
+    const auto& medium = job.scene.medium;
+    const int solved = solvedCount(job.size), suns = job.size.sunZenithAngle, wavelengths = job.scene.optics.wavelengths;
+    const int stride = job.scene.sets() * 4, states = eclipseStates(job.description, job.options);
+    const bool luminance = !job.options.radiance;
+    auto table = writer.table(job.spec("eclipsed-double-scattering",
+                                       "scattering of orders 2 and up in a total eclipse, Sun and Moon concentric at the camera", luminance));
+
+    const auto heights = physics::altitudeNodes(job.scene.profile.planet(), solved);
+    const Ratios ratios(job);
+    std::map<int, std::vector<float>> known; // by altitude solved: those in reach of the layer
+    int done = 0;
+    double fraction = 0;
+    const auto advance = [&](double share) { breath(fraction = std::max(fraction, share)); };
+    const auto ratiosAt = [&](int k) -> const std::vector<float>& {
+        auto& found = known[k];
+        if (found.empty()) {
+            found = ratios.at(heights[k], [&](int sun) { advance(solving * std::min(1., double(done + sun) / states)); });
+            done += suns;
+        }
+        return found;
+    };
+
+    const auto colours = luminanceOf(medium);
+    const auto altitudes = job.altitudes();
+    const int channels = luminance ? 4 : wavelengths;
+    std::vector<float> row, texels;
+    gatherMultipleScattering(
+        api, job, field, false, [&](double share) { advance(fraction + (1 - solving) * share / double(altitudes.size())); },
+        [&](int layer, const std::vector<float>& light) {
+            // The nodes are even in the measure of altitudeNodes, so the place among them is even too.
+            const int whole = job.size.altitude, first = job.options.altitudeLayers ? job.options.altitudeLayers->first : 0;
+            const auto stencil = physics::uniformStencil(double(first + layer) * (solved - 1) / std::max(1, whole - 1), solved);
+            std::array<const float*, 4> near;
+            for (int i = 0; i < 4; ++i)
+                near[i] = ratiosAt(stencil.weight[i] != 0 ? stencil.index[i] : stencil.index[1]).data();
+            known.erase(known.begin(), known.lower_bound(stencil.index[0]));
+            const std::size_t count = light.size() / stride;
+            texels.assign(count * channels, 0.f);
+            for (std::size_t t = 0; t < count; ++t)
+                for (int w = 0; w < wavelengths; ++w) {
+                    const std::size_t at = t * wavelengths + w;
+                    double logarithm = 0;
+                    for (int i = 0; i < 4; ++i)
+                        logarithm += stencil.weight[i] * double(near[i][at]);
+                    const double value = std::min(1., std::exp(logarithm)) * double(light[t * stride + w]);
+                    if (!luminance)
+                        texels[t * wavelengths + w] = static_cast<float>(value * medium.solarIrradiance[w]);
+                    else
+                        for (int c = 0; c < 4; ++c)
+                            texels[t * 4 + c] += static_cast<float>(value * colours[w][c]);
+                }
+            table.writeRows(layer * suns, suns, texels.data());
+        });
+    breath(1);
+}
+
+} // namespace sky::solver
