@@ -11,8 +11,28 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-/// Levels for a table over altitude: evenly spread for a gentle atmosphere, and both sides of every jump of the profile.
-std::vector<double> tableAltitudes(const Profile& profile, int count)
+/// Optical depth between two altitudes of the table that need no other between them, and the most cells that one is divided into.
+constexpr double rowOpticalDepth = 0.1;
+constexpr int mostParts = 16;
+
+/// Largest optical depth of the air between two altitudes, of all wavelengths.
+double opticalDepthBetween(const Profile& profile, const Optics& optics, double from, double to)
+{
+    constexpr int points = 4;
+    std::vector<double> n(optics.species), beta(optics.wavelengths, 0.);
+    for (int q = 0; q < points; ++q) {
+        const double h = from + (to - from) * (q + 0.5) / points;
+        profile.densities(profile.intervalAt(h), h, n.data());
+        for (int s = 0; s < optics.species; ++s)
+            for (int w = 0; w < optics.wavelengths; ++w)
+                beta[w] += n[s] * optics.extinction[s * optics.wavelengths + w] / points;
+    }
+    return *std::max_element(beta.begin(), beta.end()) * (to - from);
+}
+
+/// Levels for a table over altitude: evenly spread for a gentle atmosphere, both sides of every jump of the profile, and more where
+/// the air is dense: between two levels optical depths are linear in sqrt(r^2 - R^2), which they are not inside a cloud.
+std::vector<double> tableAltitudes(const Profile& profile, const Optics& optics, int count)
 {
     const auto& p = profile.planet();
     const double top = p.topOfAtmosphere, q = radiusExcessSquared(p, top), narrow = 1e-5 * top;
@@ -30,7 +50,15 @@ std::vector<double> tableAltitudes(const Profile& profile, int count)
         }
     std::sort(all.begin(), all.end());
     all.erase(std::unique(all.begin(), all.end()), all.end());
-    return all;
+    std::vector<double> levels{all.front()};
+    for (size_t k = 0; k + 1 < all.size(); ++k) {
+        const double depth = opticalDepthBetween(profile, optics, all[k], all[k + 1]);
+        const int parts = std::clamp(static_cast<int>(std::min(depth / rowOpticalDepth, 1e3)) + 1, 1, mostParts);
+        for (int i = 1; i < parts; ++i)
+            levels.push_back(all[k] + (all[k + 1] - all[k]) * i / parts);
+        levels.push_back(all[k + 1]);
+    }
+    return levels;
 }
 
 } // namespace
@@ -38,7 +66,7 @@ std::vector<double> tableAltitudes(const Profile& profile, int count)
 SunTable::SunTable(const Profile& profile, const Optics& optics, const double sunAngularRadius, const int altitudeCount,
                    const int elevations, const int threadCount)
     : planet_(profile.planet()), sunRadius_(sunAngularRadius), elevations_(elevations), wavelengths_(optics.wavelengths),
-      altitudes_(tableAltitudes(profile, altitudeCount)), depth_(altitudes_.size() * elevations * optics.wavelengths)
+      altitudes_(tableAltitudes(profile, optics, altitudeCount)), depth_(altitudes_.size() * elevations * optics.wavelengths)
 {
     const auto disc = gaussLegendre(6);
     const auto fillRow = [&](size_t row, RayTracer& tracer) {
