@@ -1,19 +1,21 @@
 #include "input.hpp"
 
+#include "view_direction.hpp"
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace showmysky::app::preview {
 
 namespace {
 
+constexpr double degree = 3.14159265358979323846 / 180;
 constexpr double clickReach = 4;                                          // pixels: a hand isn't that steady
 constexpr double narrowest = 0.05, widestPerspective = 170, widest = 360; // degrees
 
 /// Angle across one pixel in the middle of the picture, degrees.
 double degreesPerPixel(const SceneOptions& scene, const Canvas& canvas)
 {
-    constexpr double degree = 3.14159265358979323846 / 180;
     if (scene.projection == Projection::perspective)
         return 2 * std::tan(scene.fieldOfView * degree / 2) / canvas.width / degree;
     return scene.fieldOfView / canvas.width;
@@ -28,14 +30,33 @@ double wrapped(double azimuth)
 /// Azimuths crowd together near the zenith: there the same angle on the sky is a larger step of azimuth.
 double azimuthStep(double angle, double elevation)
 {
-    constexpr double degree = 3.14159265358979323846 / 180;
     return angle / std::max(0.1, std::cos(elevation * degree));
 }
 
-void moveOnSky(double& azimuth, double& zenith, double right, double down)
+/// A direction in the sky, degrees.
+struct Place {
+    double azimuth, zenith;
+};
+
+/// Under a point of the window; nothing outside of the projection.
+std::optional<Place> placeUnder(const SceneOptions& scene, const Canvas& canvas, const Point& point)
 {
-    azimuth = wrapped(azimuth + azimuthStep(right, 90 - zenith));
-    zenith = std::clamp(zenith + down, 0., 180.);
+    const Vector direction =
+        builtInDirection(scene.camera(), canvas.width, canvas.height, point.x, canvas.height - point.y);
+    if (direction == Vector{})
+        return std::nullopt;
+    return Place{std::atan2(-direction[1], direction[0]) / degree,
+                 std::acos(std::clamp(direction[2], -1., 1.)) / degree};
+}
+
+void moveOnSky(double& azimuth, double& zenith, const SceneOptions& scene, const Canvas& canvas, const Point& from,
+               const Point& to)
+{
+    const auto before = placeUnder(scene, canvas, from), now = placeUnder(scene, canvas, to);
+    if (!before || !now)
+        return;
+    azimuth = wrapped(azimuth + now->azimuth - before->azimuth);
+    zenith = std::clamp(zenith + now->zenith - before->zenith, 0., 180.);
 }
 
 } // namespace
@@ -47,16 +68,14 @@ void turnCamera(SceneOptions& scene, const Canvas& canvas, double dx, double dy)
     scene.pitch = std::clamp(scene.pitch + dy * scale, -90., 90.);
 }
 
-void moveSun(SceneOptions& scene, const Canvas& canvas, double dx, double dy)
+void moveSun(SceneOptions& scene, const Canvas& canvas, const Point& from, const Point& to)
 {
-    const double scale = degreesPerPixel(scene, canvas);
-    moveOnSky(scene.sunAzimuth, scene.sunZenith, dx * scale, dy * scale);
+    moveOnSky(scene.sunAzimuth, scene.sunZenith, scene, canvas, from, to);
 }
 
-void moveMoon(SceneOptions& scene, const Canvas& canvas, double dx, double dy)
+void moveMoon(SceneOptions& scene, const Canvas& canvas, const Point& from, const Point& to)
 {
-    const double scale = degreesPerPixel(scene, canvas);
-    moveOnSky(scene.moonAzimuth, scene.moonZenith, dx * scale, dy * scale);
+    moveOnSky(scene.moonAzimuth, scene.moonZenith, scene, canvas, from, to);
 }
 
 void zoom(SceneOptions& scene, double steps)
@@ -93,14 +112,13 @@ void Pointer::press(const ButtonPressed& event)
 
 void Pointer::move(const PointerMoved& event, SceneOptions& scene, const Canvas& canvas)
 {
-    const double dx = event.to.x - last_.x, dy = event.to.y - last_.y;
-    last_ = event.to;
+    const Point from = std::exchange(last_, event.to);
     if (drag_ == Drag::camera)
-        turnCamera(scene, canvas, dx, dy);
+        turnCamera(scene, canvas, last_.x - from.x, last_.y - from.y);
     else if (drag_ == Drag::sun)
-        moveSun(scene, canvas, dx, dy);
+        moveSun(scene, canvas, from, last_);
     else if (drag_ == Drag::moon)
-        moveMoon(scene, canvas, dx, dy);
+        moveMoon(scene, canvas, from, last_);
 }
 
 Wishes Pointer::handle(const Event& event, SceneOptions& scene, const Canvas& canvas, bool captured)

@@ -19,10 +19,12 @@ struct Wishes {
     std::vector<std::string> open; ///< paths that were dropped
 };
 
-// The sky under the pointer follows it, exactly so in the middle of the picture. `dx`, `dy`: pixels right and down.
+/// The sky under the pointer follows it, exactly so in the middle of the picture. `dx`, `dy`: pixels right and down.
 void turnCamera(SceneOptions& scene, const Canvas& canvas, double dx, double dy);
-void moveSun(SceneOptions& scene, const Canvas& canvas, double dx, double dy);
-void moveMoon(SceneOptions& scene, const Canvas& canvas, double dx, double dy);
+// The body goes as far in azimuth and zenith angle as the pointer does on the sky: grabbed by its middle, it stays
+// there.
+void moveSun(SceneOptions& scene, const Canvas& canvas, const Point& from, const Point& to);
+void moveMoon(SceneOptions& scene, const Canvas& canvas, const Point& from, const Point& to);
 /// The field of view shrinks by a tenth for each step, within what the projection can show.
 void zoom(SceneOptions& scene, double steps);
 /// Brings the field of view into what the projection can show.

@@ -35,11 +35,6 @@ void Interface::end()
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 
-void Interface::skip()
-{
-    ImGui::EndFrame();
-}
-
 bool Interface::wantsPointer() const
 {
     return ImGui::GetIO().WantCaptureMouse;

@@ -19,8 +19,6 @@ public:
     void begin();
     /// Draws all widgets since begin() into the framebuffer that is bound.
     void end();
-    /// Ends a frame of which nothing is to be shown.
-    void skip();
     bool wantsPointer() const;
     bool wantsKeys() const;
 

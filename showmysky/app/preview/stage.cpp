@@ -72,6 +72,7 @@ Stage::Result Stage::advance(Sky& sky, const SceneOptions& scene, const Canvas& 
     while (preparing_ && Clock::now() - start < stepBudget) {
         const Progress progress = sky.prepareStep();
         activity_ = progress.done ? std::string() : progress.activity;
+        fraction_ = progress.fraction;
         preparing_ = !progress.done;
     }
     if (preparing_)

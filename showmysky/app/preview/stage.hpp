@@ -30,6 +30,7 @@ public:
     const std::string& refusal() const { return refusal_; }
     /// What is being prepared; empty if nothing is.
     const std::string& activity() const { return activity_; }
+    double fraction() const { return fraction_; }       ///< of it, 0..1
     double drawSeconds() const { return drawSeconds_; } ///< of the last picture
 
 private:
@@ -38,6 +39,7 @@ private:
     std::optional<SceneOptions> asked_; ///< without camera and development
     bool preparing_ = false;
     std::string refusal_, activity_;
+    double fraction_ = 0;
     double drawSeconds_ = 0, fullSeconds_ = 0; ///< of the last picture; of one at full resolution, as it seems
     int reduction_ = 1;
 };

@@ -89,10 +89,8 @@ void Viewer::obey(const Wishes& wishes)
         open(path);
 }
 
-void Viewer::handleEvents(double patience)
+void Viewer::handle(const std::vector<Event>& events)
 {
-    const auto events = window_.events(patience);
-    interface_.begin();
     for (const auto& event : events) {
         const bool key = std::holds_alternative<KeyPressed>(event);
         const bool captured = key ? interface_.wantsKeys() : interface_.wantsPointer();
@@ -101,8 +99,6 @@ void Viewer::handleEvents(double patience)
         if (wishes.pick || wishes.closePick)
             atRest_ = false; // the light of another pixel is to be read
     }
-    if (!events.empty())
-        framesDue_ = framesAfterEvent;
 }
 
 void Viewer::learnAboutModel()
@@ -143,13 +139,24 @@ void Viewer::updateRefusals()
     }
 }
 
+void Viewer::updateModel()
+{
+    const std::string before = exhibit_.activity() + exhibit_.problem();
+    if (exhibit_.update())
+        learnAboutModel();
+    if (exhibit_.activity() + exhibit_.problem() != before)
+        framesDue_ = std::max(framesDue_, 2); // this one may be under way already
+}
+
 void Viewer::updateSky()
 {
     Sky* sky = exhibit_.sky();
     if (!sky)
         return;
-    const bool changed = !(lastScene_ == state_.scene);
-    lastScene_ = state_.scene;
+    SceneOptions scene = state_.scene;
+    scene.development = {}; // what comes after the light
+    const bool changed = !(lastScene_ == scene);
+    lastScene_ = std::move(scene);
     if (changed || known_.obscuration.empty())
         updateRefusals();
     if (changed)
@@ -170,7 +177,7 @@ void Viewer::updateSky()
     }
     if (!pick_)
         reading_.reset();
-    framesDue_ = std::max(framesDue_, result.drawn || nowAtRest ? 1 : 0);
+    framesDue_ = std::max(framesDue_, result.drawn || nowAtRest ? 2 : 0);
     atRest_ = nowAtRest;
 }
 
@@ -181,7 +188,7 @@ PanelFacts Viewer::facts() const
     facts.exposure = exposure_;
     facts.refusal = stage_.refusal();
     facts.activity = exhibit_.waiting() ? exhibit_.activity() : stage_.activity();
-    facts.fraction = exhibit_.waiting() ? exhibit_.fraction() : 0;
+    facts.fraction = exhibit_.waiting() ? exhibit_.fraction() : stage_.fraction();
     facts.frameSeconds = frameSeconds_;
     facts.skySeconds = stage_.drawSeconds();
     facts.screenSeconds = screen_.seconds();
@@ -217,20 +224,21 @@ void Viewer::run()
 {
     while (!window_.closing() && !quit_) {
         const bool busy = framesDue_ > 0 || (exhibit_.sky() && !atRest_);
-        handleEvents(busy ? 0 : exhibit_.waiting() ? patienceWaiting : patienceIdle);
+        const auto events = window_.events(busy ? 0 : exhibit_.waiting() ? patienceWaiting : patienceIdle);
         const auto start = Clock::now();
-        const std::string before = exhibit_.activity() + exhibit_.problem();
-        if (exhibit_.update())
-            learnAboutModel();
-        if (exhibit_.activity() + exhibit_.problem() != before)
-            framesDue_ = std::max(framesDue_, 1);
+        if (!events.empty())
+            framesDue_ = framesAfterEvent;
+        const bool drawing = framesDue_ > 0;
+        if (drawing) {
+            interface_.begin(); // before the events: it knows which of them belong to widgets
+            handle(events);
+        }
+        updateModel();
         updateSky();
-        if (framesDue_ > 0) {
+        if (drawing) {
             drawFrame();
             --framesDue_;
             frameSeconds_ = secondsSince(start);
-        } else {
-            interface_.skip();
         }
     }
     const Canvas size = window_.size();

@@ -30,9 +30,10 @@ public:
     const State& state() const { return state_; }
 
 private:
-    void handleEvents(double patience);
+    void handle(const std::vector<Event>& events);
     void obey(const Wishes& wishes);
     void learnAboutModel();
+    void updateModel();
     void updateSky();
     void updateRefusals();
     void drawFrame();
