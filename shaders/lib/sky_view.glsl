@@ -10,7 +10,12 @@ struct SkyViewAxes {
     float horizon;       // elevation of the geometric horizon, rad, <= 0
     vec2 inverseRanges;  // 1 / asinh(range / scale) above and below it
     vec2 size;           // azimuths, views of one half
+    bool wholeTurn;      // an eclipse: azimuths from -pi to pi; showmysky/src/sky_axes.hpp
+    vec4 viewFocus;      // share of the upper half's rows around the Sun, its angle from the horizon, offset, scale
+    vec3 azimuthFocus;   // share of the columns, 1 / width, scale
 };
+
+const float focusWidth = 0.04; // SkyAxes::focusWidth
 
 // Place of a direction: column and row in texels from the first texel's centre; the row counts from the half's horizon on.
 struct SkyViewPlace {
@@ -34,9 +39,21 @@ SkyViewPlace placeInSkyView(SkyViewAxes axes, vec3 direction, float elevation)
     place.half_ = fromHorizon < 0.0 ? 1.0 : 0.0;
     float range = fromHorizon < 0.0 ? axes.inverseRanges.y : axes.inverseRanges.x;
     float view = clamp(inverseSinh(abs(fromHorizon) / horizonAngleScale) * range, 0.0, 1.0);
+    if (axes.wholeTurn && fromHorizon >= 0.0) {
+        float aroundSun = (inverseSinh((fromHorizon - axes.viewFocus.y) / focusWidth) + axes.viewFocus.z) * axes.viewFocus.w;
+        view = clamp(mix(view, aroundSun, axes.viewFocus.x), 0.0, 1.0);
+    }
     float lengths = length(direction.xy) * length(axes.sun.xy);
     float cosine = lengths > 1e-7 ? clamp(dot(direction.xy, axes.sun.xy) / lengths, -1.0, 1.0) : 1.0;
     float azimuth = 0.5 - elevationOf(cosine) / (2.0 * halfPi);
+    if (axes.wholeTurn) {
+        // Small angles from the sine, whose digits the cosine has lost.
+        float sine = lengths > 1e-7 ? clamp((axes.sun.x * direction.y - axes.sun.y * direction.x) / lengths, -1.0, 1.0) : 0.0;
+        float angle = cosine > 0.7 ? elevationOf(abs(sine)) : halfPi - elevationOf(cosine);
+        float plain = angle / (2.0 * halfPi);
+        float column = mix(plain, inverseSinh(angle * axes.azimuthFocus.y) * axes.azimuthFocus.z, axes.azimuthFocus.x);
+        azimuth = 0.5 + (sine < 0.0 ? -0.5 : 0.5) * min(column, 1.0);
+    }
     place.texel = vec2(azimuth, view) * (axes.size - 1.0);
     return place;
 }

@@ -69,12 +69,25 @@ public:
                 ++frame;
             }
             const double processor = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
-            std::printf("%-28s %.1f frames/s, %.0f ms of processor time each\n", what, frames / spent,
+            std::printf("%-32s %.1f frames/s, %.0f ms of processor time each\n", what, frames / spent,
                         1e3 * processor / frames);
         };
         framesPerSecond("camera turning", [&] { camera.yaw = 0.001 * frame; });
         framesPerSecond("Sun moving", [&] { scene.sun.zenithAngle = 1 + 0.0005 * frame; });
         framesPerSecond("altitude moving", [&] { scene.altitude = 10. * frame; });
+        scene = {};
+        scene.eclipse = EclipseMode::on;
+        scene.sun.zenithAngle = 0.8;
+        const auto moveMoon = [&] {
+            scene.moon = {0.00005 * (frame % 100), 0.8, 371925e3};
+        };
+        scene.eclipseOrders = 2;
+        framesPerSecond("eclipse of order 2, Moon moving", moveMoon);
+        scene.eclipseOrders = 0;
+        framesPerSecond("eclipse, all orders, Moon moving", moveMoon);
+        scene.layers.multipleScattering = scene.layers.zeroOrder = false;
+        framesPerSecond("eclipse of order 1, Moon moving", moveMoon);
+        scene = {};
         if (sky.hasSource(Source::textures)) {
             scene.source = Source::textures;
             scene.altitude = 0;

@@ -5,6 +5,7 @@
 #include "scene_file.hpp"
 #include <algorithm>
 #include <CLI/CLI.hpp>
+#include <cmath>
 
 namespace showmysky::app {
 
@@ -73,6 +74,9 @@ SceneSettings SceneOptions::settings(const Sky& sky) const
     settings.lightPollutionLuminance = lightPollution;
     settings.source = source;
     settings.eclipse = eclipse ? EclipseMode::on : EclipseMode::off;
+    settings.eclipseOrders = static_cast<int>(std::lround(eclipseOrders));
+    settings.eclipseFine = eclipseFine;
+    settings.limbDarkening = limbDarkening;
     settings.onTheFlySingleScattering = onTheFly;
     settings.pseudoMirror = mirror;
     settings.textureFiltering = !unfiltered;

@@ -19,11 +19,12 @@ struct SceneOptions {
     double sunRadius = 0; ///< 0: as the model says
     double fieldOfView = 100, yaw = 0, pitch = 20;
     double lightPollution = 0;
+    double eclipseOrders = 0; ///< whole; 0: as the model has
     std::vector<std::string> layers{"zero", "single", "multiple"}, hiddenScatterers;
     SolarSpectrum solarSpectrum;
     Source source = Source::moments;
     Projection projection = Projection::perspective;
-    bool eclipse = false, onTheFly = false, mirror = false, unfiltered = false;
+    bool eclipse = false, eclipseFine = false, limbDarkening = false, onTheFly = false, mirror = false, unfiltered = false;
     Development development;
 
     /// Adds all options to a subcommand, and --scene, whose file comes before the others wherever it stands; the values

@@ -292,7 +292,7 @@ void MomentGather::addMultiple(Ray& ray, float muSun, float nu, float* radiance)
     }
 }
 
-void MomentGather::addGround(const Ray& ray, float muSun, float nu, float* radiance) const
+void MomentGather::addGround(const Ray& ray, float muSun, float nu, const LayersUsed& layers, float* radiance) const
 {
     const auto& node = ray.groundNode;
     const float muSunThere = clampedSine(node.sunScale * muSun + node.nuScale * nu);
@@ -308,8 +308,8 @@ void MomentGather::addGround(const Ray& ray, float muSun, float nu, float* radia
         cosine = std::max(0.f, elevation + (x < -0.99f ? 0.f : sunRadius_ * 2 / 3 * std::pow(1 - x * x, 1.5f) / area));
     }
     for (float& value : light)
-        value *= cosine;
-    if (moments_) {
+        value *= layers.groundDirect ? cosine : 0.f;
+    if (moments_ && layers.groundDiffuse) {
         const auto stencil = moments_->grid.sunStencil(moments_->grid.sunPosition(static_cast<double>(elevation)));
         const float* suns[4];
         float weights[4];
@@ -361,7 +361,7 @@ SkyView MomentGather::gather(double muSun, const LayersUsed& layers, const std::
                 if (layers.multiple && moments_)
                     addMultiple(ray, muSunF, nuF, radiance.data());
                 if (layers.ground && ray.ground)
-                    addGround(ray, muSunF, nuF, radiance.data());
+                    addGround(ray, muSunF, nuF, layers, radiance.data());
                 result.whole.at(v, a) = luminance(radiance.data());
                 if (!anySingle)
                     continue;

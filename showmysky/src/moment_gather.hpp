@@ -64,7 +64,7 @@ private:
     void sunlight(const Node& node, float elevation, float* result) const;
     void addSingle(const Ray& ray, float muSun, float nu, float* lit) const;
     void addMultiple(Ray& ray, float muSun, float nu, float* radiance) const;
-    void addGround(const Ray& ray, float muSun, float nu, float* radiance) const;
+    void addGround(const Ray& ray, float muSun, float nu, const LayersUsed& layers, float* radiance) const;
 
     const Atmosphere& atmosphere_;
     const Phases& phases_;

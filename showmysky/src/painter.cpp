@@ -2,6 +2,7 @@
 
 #include "gl/pixel_store.hpp"
 #include "physics/table_axes.hpp"
+#include "sky_axes.hpp"
 #include "sky_shaders.hpp"
 #include "view_direction.hpp"
 #include <algorithm>
@@ -68,7 +69,6 @@ Painter::Painter(const gl::Api& api, int scatterers, const std::vector<Texel>& p
     phases_.upload(flat(phases));
     directionTarget_.attach(0, direction_);
     program_.set("phaseWidth", static_cast<float>(phaseWidth));
-    program_.set("tableSize", std::array<float, 2>{drawnAzimuths, drawnHalfViews});
     program_.set("largest", half_ ? 65504.f : 3e38f);
     gl::checkErrors(api_, "preparing to draw the sky");
 }
@@ -78,10 +78,13 @@ void Painter::setSky(const SkyView& view, const SceneGeometry& geometry)
     // Each table is stored over its largest value: half floats then serve noon and night alike.
     std::vector<float> texels;
     std::vector<std::array<float, 4>> scales;
-    constexpr std::size_t texelsOfTable = std::size_t(2) * drawnHalfViews * drawnAzimuths;
+    // An eclipse's tables come as they are drawn: SkyAxes.
+    const int halfViews = view.eclipse ? view.whole.halfViews : drawnHalfViews;
+    const int azimuths = view.eclipse ? view.whole.azimuths : drawnAzimuths;
+    const std::size_t texelsOfTable = std::size_t(2) * static_cast<std::size_t>(halfViews * azimuths);
     for (int i = -1; i < scatterers_; ++i) {
         const ViewTable table =
-            resampled(i < 0 ? view.whole : view.scattered[static_cast<std::size_t>(i)], drawnHalfViews, drawnAzimuths);
+            resampled(i < 0 ? view.whole : view.scattered[static_cast<std::size_t>(i)], halfViews, azimuths);
         float largest = 0;
         for (const Texel& texel : table.texels)
             largest = std::max({largest, texel[0], texel[1], texel[2], texel[3]});
@@ -92,7 +95,12 @@ void Painter::setSky(const SkyView& view, const SceneGeometry& geometry)
                     texels.push_back(std::max(0.f, value / largest));
         texels.resize(static_cast<std::size_t>(i + 2) * texelsOfTable * 4, 0.f);
     }
+    const int rows = 2 * halfViews * (scatterers_ + 1);
+    if (tables_.size().width != azimuths || tables_.size().height != rows)
+        tables_ = gl::Texture2D(api_, "sky tables", formatOf(half_), azimuths, rows);
     tables_.upload(texels);
+    program_.set("tableSize", std::array<float, 2>{static_cast<float>(azimuths), static_cast<float>(halfViews)});
+    setAxes(view, geometry);
     tables_.setFilter(geometry.filter ? gl::Filter::linear : gl::Filter::nearest);
     program_.setVec4s("tableScales", scales);
     program_.set("sunDirection", asFloats(geometry.sunDirection));
@@ -105,6 +113,22 @@ void Painter::setSky(const SkyView& view, const SceneGeometry& geometry)
     program_.setVec4s("sunColours", geometry.sunColours);
     program_.set("sunRadius", static_cast<float>(geometry.sunRadius));
     program_.set("mirror", geometry.mirror ? 1 : 0);
+}
+
+void Painter::setAxes(const SkyView& view, const SceneGeometry& geometry)
+{
+    const double sunElevation = std::asin(std::clamp(geometry.sunDirection[2], -1., 1.));
+    const SkyAxes axes{geometry.horizon, view.eclipse, sunElevation};
+    const auto focus = axes.focus(0);
+    const auto columns = axes.azimuthFocus();
+    program_.set("wholeTurn", view.eclipse ? 1 : 0);
+    program_.set("viewFocus", std::array<float, 4>{static_cast<float>(focus.share), static_cast<float>(focus.sun),
+                                                   static_cast<float>(focus.offset), static_cast<float>(focus.scale)});
+    program_.set("azimuthFocus", std::array<float, 3>{static_cast<float>(columns[0]), static_cast<float>(columns[1]),
+                                                      static_cast<float>(columns[2])});
+    program_.set("moonDirection", asFloats(geometry.moonDirection));
+    program_.set("moonRadius", static_cast<float>(geometry.eclipse ? geometry.moonRadius : 0));
+    program_.set("limbExponents", geometry.limbExponents);
 }
 
 void Painter::setCamera(const Camera& camera, int width, int height)

@@ -18,6 +18,10 @@ struct SceneGeometry {
     double horizon = 0;   ///< elevation, rad
     double sunRadius = 0; ///< rad; 0 where the disc isn't shown
     std::array<Texel, sunColourCount> sunColours{};
+    bool eclipse = false;
+    std::array<double, 3> moonDirection{};
+    double moonRadius = 0;  ///< rad
+    Texel limbExponents{};  ///< of the disc's darkening towards its limb
     bool mirror = false;
     bool filter = true;
 };
@@ -47,6 +51,7 @@ public:
     int fetchesPerPixel() const;
 
 private:
+    void setAxes(const SkyView& view, const SceneGeometry& geometry);
     void setCamera(const Camera& camera, int width, int height);
 
     sky::gl::Api api_;

@@ -18,6 +18,8 @@ constexpr double pi = 3.14159265358979323846;
 constexpr int sunAltitudes = 64, sunElevations = 96;
 /// Rays that a step of preparation follows.
 constexpr int raysPerStep = 16;
+/// Along a ray through the shadow, for single directions.
+constexpr int eclipseNodes = 400;
 
 bool same(const Layers& a, const Layers& b)
 {
@@ -26,13 +28,24 @@ bool same(const Layers& a, const Layers& b)
            a.hiddenScatterers == b.hiddenScatterers;
 }
 
-/// True if both ask for the same sky tables.
+/// True if both ask for the same sky tables, the Moon aside.
 bool sameTables(const SceneSettings& a, const SceneSettings& b)
 {
     return a.altitude == b.altitude && a.sun.zenithAngle == b.sun.zenithAngle &&
            a.sun.angularRadius == b.sun.angularRadius && same(a.layers, b.layers) &&
            a.lightPollutionLuminance == b.lightPollutionLuminance && a.source == b.source &&
            a.onTheFlySingleScattering == b.onTheFlySingleScattering && a.solarSpectrumFactors == b.solarSpectrumFactors;
+}
+
+/// True if the Moon takes the same light in both.
+bool sameEclipse(const SceneSettings& a, const SceneSettings& b)
+{
+    if (a.eclipse != b.eclipse)
+        return false;
+    return a.eclipse == EclipseMode::off ||
+           (a.sun.azimuth == b.sun.azimuth && a.moon.azimuth == b.moon.azimuth && a.moon.zenithAngle == b.moon.zenithAngle &&
+            a.moon.distance == b.moon.distance && a.eclipseOrders == b.eclipseOrders && a.eclipseFine == b.eclipseFine &&
+            a.limbDarkening == b.limbDarkening);
 }
 
 void require(bool fine, const std::string& message)
@@ -74,6 +87,8 @@ double Scene::sunRadius() const
 void Scene::followSunlight()
 {
     gather_.reset();
+    eclipse_.reset();
+    ordinaryReady_ = false;
     tabulatedSunRadius_ = sunRadius();
     sun_ = std::make_unique<physics::SunTable>(atmosphere_->profile, atmosphere_->optics, tabulatedSunRadius_,
                                                sunAltitudes, sunElevations);
@@ -89,8 +104,6 @@ bool Scene::hasSource(Source source) const
 
 std::string Scene::whyUnsupported(const SceneSettings& settings) const
 {
-    if (settings.eclipse == EclipseMode::on)
-        return "Solar eclipses can't be drawn by this version.";
     if (settings.layers.lightPollution)
         if (const std::string why = Glow::whyMissing(atmosphere_->model); !why.empty())
             return why;
@@ -124,6 +137,10 @@ void Scene::setSettings(const SceneSettings& settings)
             "The angular radius of the Sun must be above 0 and below 0.5 radians.");
     require(std::isfinite(settings.lightPollutionLuminance) && settings.lightPollutionLuminance >= 0,
             "The luminance of the ground must be a number of cd/m^2, at least 0.");
+    require(settings.eclipseOrders == 0 || settings.eclipseOrders >= 2,
+            "The orders of scattering in an eclipse must be at least 2, or 0 for those of the model.");
+    if (settings.eclipse == EclipseMode::on)
+        eclipseState(settings); // throws if the Moon can't be there
     const auto& factors = settings.solarSpectrumFactors;
     require(factors.empty() || factors.size() == static_cast<std::size_t>(atmosphere_->wavelengths()),
             "The solar spectrum needs one factor for each of the " + std::to_string(atmosphere_->wavelengths()) +
@@ -147,7 +164,9 @@ void Scene::setSettings(const SceneSettings& settings)
         throw Error(ErrorKind::unsupported, why);
     if (settings.layers.lightPollution && !glow_)
         glow_ = std::make_unique<Glow>(atmosphere_->model, atmosphere_->medium);
-    if (!sameTables(settings, settings_))
+    if (!sameTables(settings, settings_) || settings.eclipse != settings_.eclipse)
+        ordinaryReady_ = ready_ = false;
+    if (!sameEclipse(settings, settings_))
         ready_ = false;
     settings_ = settings;
     ++version_;
@@ -181,56 +200,111 @@ Progress Scene::step()
         followSunlight();
         return {false, 0.1, "Following rays"};
     }
-    const LayersUsed layers = layersUsed();
-    LayersUsed gathered = layers;
-    if (settings_.source == Source::textures) {
-        gathered.multiple = false;
-        if (!settings_.onTheFlySingleScattering)
-            gathered.single.assign(gathered.single.size(), false);
-    }
-    const bool anySingle = std::find(gathered.single.begin(), gathered.single.end(), true) != gathered.single.end();
-    const bool gathers = gathered.ground || gathered.multiple || anySingle;
-    if (gathers) {
+    const bool eclipse = settings_.eclipse == EclipseMode::on;
+    if (eclipse && ordinaryReady_)
+        return eclipseStep();
+    LayersUsed layers = layersUsed();
+    const bool ground = layers.ground;
+    const bool anySingle = std::find(layers.single.begin(), layers.single.end(), true) != layers.single.end();
+    const bool single = anySingle && (settings_.source == Source::moments || settings_.onTheFlySingleScattering);
+    if (ground || single || (layers.multiple && settings_.source == Source::moments)) {
         gather_->setAltitude(settings_.altitude);
         if (gather_->fractionDone() < 1) {
             const bool done = gather_->step(raysPerStep);
             return {false, 0.1 + 0.7 * gather_->fractionDone(), done ? "Gathering light" : "Following rays"};
         }
     }
-    const double muSun = std::cos(settings_.sun.zenithAngle);
-    const auto weights = atmosphere_->luminanceWeights(settings_.solarSpectrumFactors);
-    if (settings_.source == Source::moments) {
-        view_ = gathers ? gather_->gather(muSun, gathered, weights) : SkyView{{}, std::vector<ViewTable>(layers.single.size())};
-    } else {
-        LayersUsed looked = layers;
-        if (settings_.onTheFlySingleScattering)
-            looked.single = std::vector<bool>(looked.single.size(), false);
-        view_ = lookup_->slice(settings_.altitude, muSun, looked, weights);
-        if (gathers) {
-            SkyView own = gather_->gather(muSun, gathered, weights);
-            view_.whole = sum(resampled(view_.whole, drawnHalfViews, drawnAzimuths),
-                              resampled(own.whole, drawnHalfViews, drawnAzimuths));
-            for (std::size_t i = 0; i < own.scattered.size(); ++i)
-                if (!own.scattered[i].empty())
-                    view_.scattered[i] = std::move(own.scattered[i]);
+    if (eclipse) {
+        // The parts that the Moon dims each in its own way.
+        layers.ground = false;
+        ordinary_ = {gathered(layers), {}, {}, glow()};
+        if (ground) {
+            LayersUsed part{true, true, false, false, std::vector<bool>(layers.single.size(), false)};
+            const auto weights = atmosphere_->luminanceWeights(settings_.solarSpectrumFactors);
+            const double muSun = std::cos(settings_.sun.zenithAngle);
+            ordinary_.groundDirect = gather_->gather(muSun, part, weights).whole;
+            std::swap(part.groundDirect, part.groundDiffuse);
+            ordinary_.groundDiffuse = gather_->gather(muSun, part, weights).whole;
         }
+        ordinaryReady_ = true;
+        return {false, 0.85, "Following the shadow"};
     }
-    addGlow();
+    view_ = gathered(layers);
+    if (ViewTable light = glow(); !light.empty())
+        view_.whole = sum(resampled(view_.whole, drawnHalfViews, drawnAzimuths), resampled(light, drawnHalfViews, drawnAzimuths));
     ready_ = true;
     ++version_;
     return {true, 1, {}};
 }
 
-void Scene::addGlow()
+SkyView Scene::gathered(LayersUsed layers)
+{
+    const double muSun = std::cos(settings_.sun.zenithAngle);
+    const auto weights = atmosphere_->luminanceWeights(settings_.solarSpectrumFactors);
+    const LayersUsed looked = [&] {
+        LayersUsed result = layers;
+        if (settings_.onTheFlySingleScattering)
+            result.single.assign(result.single.size(), false);
+        return result;
+    }();
+    if (settings_.source == Source::textures) {
+        layers.multiple = false;
+        if (!settings_.onTheFlySingleScattering)
+            layers.single.assign(layers.single.size(), false);
+    }
+    const bool gathers = layers.ground || layers.multiple ||
+                         std::find(layers.single.begin(), layers.single.end(), true) != layers.single.end();
+    if (settings_.source == Source::moments)
+        return gathers ? gather_->gather(muSun, layers, weights) : SkyView{{}, std::vector<ViewTable>(layers.single.size())};
+    SkyView view = lookup_->slice(settings_.altitude, muSun, looked, weights);
+    if (gathers) {
+        SkyView own = gather_->gather(muSun, layers, weights);
+        view.whole = sum(resampled(view.whole, drawnHalfViews, drawnAzimuths),
+                         resampled(own.whole, drawnHalfViews, drawnAzimuths));
+        for (std::size_t i = 0; i < own.scattered.size(); ++i)
+            if (!own.scattered[i].empty())
+                view.scattered[i] = std::move(own.scattered[i]);
+    }
+    return view;
+}
+
+EclipseScene Scene::eclipseScene() const
+{
+    const auto& manifest = atmosphere_->model.manifest();
+    EclipseScene scene;
+    scene.bodies = bodiesOf(manifest, settings_.altitude, settings_.sun, settings_.moon, sunRadius());
+    scene.orders.all = settings_.eclipseOrders == 0 && manifest.allScatteringOrders;
+    scene.orders.orders = settings_.eclipseOrders == 0 ? manifest.scatteringOrders : settings_.eclipseOrders;
+    scene.limbDarkening = settings_.limbDarkening;
+    scene.field = settings_.layers.multipleScattering || settings_.layers.zeroOrder;
+    scene.weights = atmosphere_->luminanceWeights(settings_.solarSpectrumFactors);
+    return scene;
+}
+
+Progress Scene::eclipseStep()
+{
+    if (!eclipse_)
+        eclipse_ = std::make_unique<EclipseSky>(*atmosphere_, *sun_);
+    eclipse_->set(eclipseScene());
+    if (!eclipse_->step())
+        return {false, 0.85 + 0.15 * eclipse_->fractionDone(), "Following the shadow"};
+    const int finer = settings_.eclipseFine ? 4 : 1;
+    view_ = eclipse_->dimmed(ordinary_, finer * eclipseHalfViews, finer * (eclipseAzimuths - 1) + 1);
+    ready_ = true;
+    ++version_;
+    return {true, 1, {}};
+}
+
+ViewTable Scene::glow() const
 {
     if (!settings_.layers.lightPollution || settings_.lightPollutionLuminance <= 0)
-        return;
-    ViewTable glow = settings_.source == Source::textures ? glow_->fromTextures(settings_.altitude)
-                                                          : glow_->fromMoments(settings_.altitude);
-    for (Texel& texel : glow.texels)
+        return {};
+    ViewTable result = settings_.source == Source::textures ? glow_->fromTextures(settings_.altitude)
+                                                            : glow_->fromMoments(settings_.altitude);
+    for (Texel& texel : result.texels)
         for (float& value : texel)
             value *= static_cast<float>(settings_.lightPollutionLuminance);
-    view_.whole = sum(resampled(view_.whole, drawnHalfViews, drawnAzimuths), resampled(glow, drawnHalfViews, drawnAzimuths));
+    return result;
 }
 
 SceneGeometry Scene::geometry() const
@@ -244,6 +318,28 @@ SceneGeometry Scene::geometry() const
         result.sunRadius = sunRadius();
         result.sunColours = sunColours();
     }
+    result.eclipse = settings_.eclipse == EclipseMode::on;
+    if (result.eclipse) {
+        result.moonDirection = directionOf(settings_.moon.azimuth, settings_.moon.zenithAngle);
+        result.moonRadius = eclipseState(settings_).moonAngularRadius;
+    }
+    if (settings_.limbDarkening && result.eclipse)
+        result.limbExponents = limbExponents();
+    return result;
+}
+
+Texel Scene::limbExponents() const
+{
+    // Of each colour: the mean over its wavelengths.
+    const auto weights = atmosphere_->luminanceWeights(settings_.solarSpectrumFactors);
+    Texel sums{}, result{};
+    for (std::size_t w = 0; w < weights.size(); ++w)
+        for (std::size_t c = 0; c < 4; ++c) {
+            sums[c] += weights[w][c];
+            result[c] += weights[w][c] * static_cast<float>(physics::LimbDarkening::exponent(atmosphere_->medium.wavelengthsNm[w]));
+        }
+    for (std::size_t c = 0; c < 4; ++c)
+        result[c] = sums[c] > 0 ? result[c] / sums[c] : 0;
     return result;
 }
 
@@ -276,7 +372,7 @@ std::array<Texel, sunColourCount> Scene::sunColours() const
     return result;
 }
 
-std::vector<double> Scene::spectralRadiance(const std::array<double, 3>& direction) const
+std::vector<double> Scene::spectralRadiance(const std::array<double, 3>& direction)
 {
     const auto& medium = atmosphere_->medium;
     const auto& optics = atmosphere_->optics;
@@ -304,7 +400,20 @@ std::vector<double> Scene::spectralRadiance(const std::array<double, 3>& directi
     const LayersUsed layers = layersUsed();
     physics::RayTracer tracer(atmosphere_->profile, optics);
     const physics::SkyEvaluator evaluator(medium, atmosphere_->profile, optics, *sun_);
-    const physics::SkyEvaluator::Parts parts;
+    physics::SkyEvaluator::Parts parts;
+    // An eclipse has edges along the ray.
+    const bool eclipse = settings_.eclipse == EclipseMode::on;
+    const double cameraRadius = atmosphere_->planet().radius + settings_.altitude;
+    const auto distanceOf = [&](const physics::RayNodes::Node& node) { return cameraRadius * node.nuScale / node.sunScale; };
+    std::vector<double> visible(wavelengths, 1.);
+    EclipseSky::Ratios ratios{visible, visible};
+    if (eclipse) {
+        while (!ready_)
+            step();
+        parts.singleNodes = eclipseNodes;
+        if (layers.multiple || layers.ground)
+            ratios = eclipse_->ratios(view, ground);
+    }
 
     auto ray = tracer.trace(entry->altitude, entry->mu, parts.singleNodes, ground);
     for (std::size_t k = 0; k < ray.nodes.size(); ++k) {
@@ -312,6 +421,12 @@ std::vector<double> Scene::spectralRadiance(const std::array<double, 3>& directi
         for (std::size_t i = 0; i < layers.single.size(); ++i)
             if (!layers.single[i])
                 std::fill_n(&ray.weights[(k * layers.single.size() + i) * wavelengths], wavelengths, 0.);
+        if (!eclipse)
+            continue;
+        eclipse_->visibleAt(view, distanceOf(ray.nodes[k]), visible.data());
+        for (std::size_t i = 0; i < layers.single.size(); ++i)
+            for (std::size_t w = 0; w < wavelengths; ++w)
+                ray.weights[(k * layers.single.size() + i) * wavelengths + w] *= visible[w];
     }
     evaluator.singleAlong(ray, muSun, nu, true, result.data());
     if (layers.ground && ground) {
@@ -321,14 +436,22 @@ std::vector<double> Scene::spectralRadiance(const std::array<double, 3>& directi
         sun_->horizontalIrradiance(0, muSunThere, direct.data());
         if (moments_)
             moments_->interpolateGround(muSunThere, diffuse.data());
+        if (eclipse)
+            eclipse_->visibleAt(view, distanceOf(there), visible.data());
+        else
+            std::fill(visible.begin(), visible.end(), 1.);
         for (std::size_t w = 0; w < wavelengths; ++w)
-            result[w] += ray.groundTransmittance[w] * medium.groundAlbedo[w] / pi * (direct[w] + diffuse[w]);
+            result[w] += ray.groundTransmittance[w] * medium.groundAlbedo[w] / pi *
+                         (visible[w] * direct[w] + ratios.ground[w] * diffuse[w]);
     }
     if (layers.multiple && moments_) {
         auto coarse = tracer.trace(entry->altitude, entry->mu, parts.multipleNodes, ground);
         for (auto& node : coarse.nodes)
             node = entry->node(node);
-        evaluator.multipleAlong(coarse, *moments_, muSun, nu, result.data());
+        std::vector<double> multiple(wavelengths, 0.);
+        evaluator.multipleAlong(coarse, *moments_, muSun, nu, multiple.data());
+        for (std::size_t w = 0; w < wavelengths; ++w)
+            result[w] += ratios.sky[w] * multiple[w];
     }
     for (std::size_t w = 0; w < wavelengths; ++w)
         result[w] = std::max(0., result[w]) * medium.solarIrradiance[w] *

@@ -1,6 +1,7 @@
 #pragma once
 // All that is computed without OpenGL: a model, settings, and the sky tables and spectra that follow from both.
 
+#include "eclipse_sky.hpp"
 #include "glow.hpp"
 #include "moment_gather.hpp"
 #include "painter.hpp"
@@ -42,14 +43,19 @@ public:
     int version() const { return version_; }
 
     /// Spectral radiance in a direction, W m^-2 sr^-1 nm^-1, in double precision; without the solar disc.
-    std::vector<double> spectralRadiance(const std::array<double, 3>& direction) const;
+    /// In an eclipse the tables must be there, or are made first.
+    std::vector<double> spectralRadiance(const std::array<double, 3>& direction);
 
 private:
     LayersUsed layersUsed() const;
     double sunRadius() const;
     void followSunlight();
-    void addGlow();
+    ViewTable glow() const;
+    SkyView gathered(LayersUsed layers);
+    Progress eclipseStep();
+    EclipseScene eclipseScene() const;
     std::array<Texel, sunColourCount> sunColours() const;
+    Texel limbExponents() const;
 
     std::string directory_;
     std::unique_ptr<Atmosphere> atmosphere_;
@@ -61,7 +67,10 @@ private:
     std::unique_ptr<TextureLookup> lookup_;
     std::unique_ptr<Glow> glow_; ///< once light pollution has been asked for
     SceneSettings settings_;
+    std::unique_ptr<EclipseSky> eclipse_; ///< once an eclipse has been asked for
+    OrdinarySky ordinary_;                ///< in an eclipse: what it dims
     SkyView view_;
+    bool ordinaryReady_ = false;
     bool ready_ = false;
     int version_ = 0;
 };

@@ -30,10 +30,13 @@ struct ViewTable {
 struct SkyView {
     ViewTable whole;                  ///< multiple scattering and the ground: as it is seen
     std::vector<ViewTable> scattered; ///< [scatterer]: to be multiplied by its phase function; empty if hidden
+    bool eclipse = false; ///< tables stand as SkyAxes has them in an eclipse and are drawn as they are
 };
 
 /// Size of the tables on the GPU: fine enough for linear interpolation.
 constexpr int drawnHalfViews = 64, drawnAzimuths = 64;
+/// In an eclipse, around the whole turn: at least.
+constexpr int eclipseHalfViews = 64, eclipseAzimuths = 129;
 
 /// A finer or coarser table by cubic interpolation: of logarithms where all four neighbours are positive, otherwise
 /// linear.

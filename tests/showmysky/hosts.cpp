@@ -338,8 +338,9 @@ TEST_CASE("host: settings that can't be met are refused and leave the scene alon
     refused([](SceneSettings& s) { s.sun.zenithAngle = 4; }, ErrorKind::settings);
     refused([](SceneSettings& s) { s.solarSpectrumFactors = {1, 2}; }, ErrorKind::settings);
     refused([](SceneSettings& s) { s.layers.hiddenScatterers = {"glitter"}; }, ErrorKind::settings);
-    refused([](SceneSettings& s) { s.eclipse = EclipseMode::on; }, ErrorKind::unsupported);
-    refused([](SceneSettings& s) { s.layers.lightPollution = true; }, ErrorKind::unsupported);
+    refused([](SceneSettings& s) { s.eclipse = EclipseMode::on, s.moon.distance = 6400e3; }, ErrorKind::settings);
+    refused([](SceneSettings& s) { s.eclipseOrders = 1; }, ErrorKind::settings);
+    refused([](SceneSettings& s) { s.lightPollutionLuminance = -1; }, ErrorKind::settings);
     CHECK_THROWS_AS(sky.draw(panorama(), 0, 10), Error);
     CHECK_THROWS_AS(sky.draw({Projection::perspective, 3.2, 0, 0, 0}, 10, 10), Error);
     CHECK_THROWS_AS(sky.pixelLuminance(0, 0), Error);

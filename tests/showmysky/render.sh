@@ -38,6 +38,6 @@ refused "WIDTHxHEIGHT" "$model" -o sky.png --size big
 refused "FROM..TO:FRAMES" "$model" -o sky.png --animate altitude=3
 refused "sun-zenith" "$model" -o sky.png --animate sun=1..2:3
 refused "no/such/model" no/such/model -o sky.png
-refused "eclipses" "$model" -o sky.png --eclipse
+refused "touches neither the air nor the camera" "$model" -o sky.png --eclipse --moon-distance 6400000
 refused "There is no scatterer" "$model" -o sky.png --hide-scatterer glitter
 refused "zenith angle of the Sun" "$model" -o sky.png --sun-zenith 190

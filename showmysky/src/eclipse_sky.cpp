@@ -1,0 +1,294 @@
+#include "eclipse_sky.hpp"
+
+#include "air_entry.hpp"
+#include "base/parallel.hpp"
+#include "eclipse/frame.hpp"
+#include "physics/table_axes.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace showmysky {
+
+namespace physics = sky::physics;
+namespace eclipse = sky::eclipse;
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+/// Directions in which the light of higher orders is asked: it is smooth.
+constexpr int ratioHalfViews = 10, ratioAzimuths = 16;
+constexpr int raysPerStep = 16;
+
+/// Bilinear, in the coordinates of an ordinary table.
+Texel sampled(const ViewTable& table, double coordinate, int half, double azimuth)
+{
+    const double v = std::clamp(coordinate, 0., 1.) * (table.halfViews - 1),
+                 a = std::clamp(azimuth, 0., 1.) * (table.azimuths - 1);
+    const int i = std::min(static_cast<int>(v), table.halfViews - 2),
+              k = std::min(static_cast<int>(a), table.azimuths - 2);
+    const auto y = static_cast<float>(v - i), x = static_cast<float>(a - k);
+    const int row = half * table.halfViews + i;
+    Texel result;
+    for (std::size_t c = 0; c < 4; ++c) {
+        const float low = table.at(row, k)[c] + x * (table.at(row, k + 1)[c] - table.at(row, k)[c]);
+        const float high = table.at(row + 1, k)[c] + x * (table.at(row + 1, k + 1)[c] - table.at(row + 1, k)[c]);
+        result[c] = low + y * (high - low);
+    }
+    return result;
+}
+
+bool same(const physics::EclipseBodies& a, const physics::EclipseBodies& b)
+{
+    return a.cameraAltitude == b.cameraAltitude && a.sunDirection == b.sunDirection &&
+           a.moonDirection == b.moonDirection && a.moonDistance == b.moonDistance &&
+           a.sunAngularRadius == b.sunAngularRadius;
+}
+
+bool same(const eclipse::Orders& a, const eclipse::Orders& b)
+{
+    return a.orders == b.orders && a.all == b.all && a.tolerance == b.tolerance;
+}
+
+} // namespace
+
+EclipseSky::EclipseSky(const Atmosphere& atmosphere, const physics::SunTable& sun)
+    : atmosphere_(atmosphere), sun_(sun), law_(atmosphere.medium.wavelengthsNm),
+      air_(eclipse::traceAir(atmosphere.medium, atmosphere.profile, atmosphere.optics, {})), shares_(atmosphere, sun)
+{
+}
+
+void EclipseSky::set(const EclipseScene& scene)
+{
+    if (scene_ && same(scene_->bodies, scene.bodies) && same(scene_->orders, scene.orders) &&
+        scene_->limbDarkening == scene.limbDarkening && scene_->field == scene.field &&
+        scene_->weights == scene.weights)
+        return;
+    shadow_ = physics::makeShadow(scene.bodies); // throws before anything is changed
+    scene_ = scene;
+    ready_ = false;
+    light_.reset();
+    field_.reset();
+    sunAzimuth_ = std::atan2(scene.bodies.sunDirection[1], scene.bodies.sunDirection[0]);
+    shares_.set(scene.bodies.cameraAltitude, scene.bodies.sunDirection[2], scene.weights);
+}
+
+bool EclipseSky::step()
+{
+    if (ready_)
+        return true;
+    if (!light_) {
+        if (!shares_.step(raysPerStep))
+            return false;
+        const auto& planet = atmosphere_.planet();
+        // Nodes, and ground as far as it is seen.
+        const double reach =
+            shares_.reach() + std::sqrt(physics::radiusExcessSquared(planet, scene_->bodies.cameraAltitude)) + 2e6;
+        light_.emplace(shadow_, reach, scene_->limbDarkening ? &law_ : nullptr, scene_->weights);
+        return false;
+    }
+    if (!scene_->field) {
+        skyRatios_.assign(2 * ratioHalfViews * ratioAzimuths, Texel{1, 1, 1, 1});
+        groundRatios_ = skyRatios_;
+        return ready_ = true;
+    }
+    if (!field_) {
+        field_.emplace(air_, sun_, scene_->bodies, scene_->orders,
+                       [this](const std::array<float, 3>& point) { return light_->luminance(point); });
+        return false;
+    }
+    if (!field_->step())
+        return false;
+    tabulateRatios();
+    ready_ = true;
+    return true;
+}
+
+double EclipseSky::fractionDone() const
+{
+    return ready_ ? 1 : !light_ ? 0 : 0.2 + (field_ ? 0.7 * field_->fractionDone() : 0);
+}
+
+eclipse::ViewRay EclipseSky::viewRay(const double mu, const bool ground) const
+{
+    const auto& planet = atmosphere_.planet();
+    const auto entry = enterAir(planet, scene_->bodies.cameraAltitude, mu);
+    if (!entry) // misses the air: nothing is seen there, so any ray will do
+        return {planet.topOfAtmosphere, 1, false, 0};
+    const double before =
+        entry->outerShift > 0 ? eclipse::groundDistance(planet.radius, entry->outerScale, entry->outerShift, mu) : 0;
+    return {entry->altitude, entry->mu, ground, before};
+}
+
+std::vector<eclipse::ViewRay> EclipseSky::viewRays() const
+{
+    std::vector<eclipse::ViewRay> rays;
+    const auto sines = viewSines(atmosphere_.planet(), scene_->bodies.cameraAltitude, ratioHalfViews);
+    for (std::size_t i = 0; i < sines.size(); ++i)
+        rays.push_back(viewRay(sines[i], i >= ratioHalfViews));
+    return rays;
+}
+
+void EclipseSky::tabulateRatios()
+{
+    std::vector<double> azimuths;
+    for (int a = 0; a < ratioAzimuths; ++a)
+        azimuths.push_back(sunAzimuth_ + 2 * pi * a / ratioAzimuths);
+    const auto light = field_->view(viewRays(), azimuths);
+    const auto wavelengths = static_cast<std::size_t>(light.wavelengths);
+    const auto ratios = [&](const std::vector<float>& eclipsed, const std::vector<float>& whole) {
+        std::vector<Texel> result(2 * ratioHalfViews * ratioAzimuths, Texel{1, 1, 1, 1});
+        for (std::size_t i = 0; i < result.size(); ++i)
+            for (std::size_t c = 0; c < 4; ++c) {
+                double left = 0, all = 0;
+                for (std::size_t w = 0; w < wavelengths; ++w) {
+                    const auto weight = static_cast<double>(scene_->weights[w][c]);
+                    left += weight * static_cast<double>(eclipsed[i * wavelengths + w]);
+                    all += weight * static_cast<double>(whole[i * wavelengths + w]);
+                }
+                if (all > 0)
+                    result[i][c] = static_cast<float>(std::clamp(left / all, 0., 1.));
+            }
+        return result;
+    };
+    skyRatios_ = ratios(light.eclipsed, light.uneclipsed);
+    groundRatios_ = ratios(light.groundEclipsed, light.groundUneclipsed);
+}
+
+Texel EclipseSky::ratioAt(const std::vector<Texel>& table, const double coordinate, const int half,
+                          const double relative) const
+{
+    const double v = std::clamp(coordinate, 0., 1.) * (ratioHalfViews - 1),
+                 a = (relative / (2 * pi) + 1) * ratioAzimuths;
+    const int row = std::min(static_cast<int>(v), ratioHalfViews - 2), column = static_cast<int>(a);
+    const auto y = static_cast<float>(v - row), t = static_cast<float>(a - column);
+    // Cubic around the circle, where nodes are few; a ratio has no sharp edges and can't leave 0..1 by much.
+    const std::array<float, 4> w{0.5f * t * (-1 + t * (2 - t)), 1 + 0.5f * t * t * (-5 + 3 * t),
+                                 0.5f * t * (1 + t * (4 - 3 * t)), 0.5f * t * t * (t - 1)};
+    Texel result{};
+    for (int i = 0; i < 4; ++i) {
+        const int k = (column - 1 + i + ratioAzimuths) % ratioAzimuths;
+        const auto at = static_cast<std::size_t>((half * ratioHalfViews + row) * ratioAzimuths + k);
+        for (std::size_t c = 0; c < 4; ++c)
+            result[c] +=
+                w[static_cast<std::size_t>(i)] * (table[at][c] + y * (table[at + ratioAzimuths][c] - table[at][c]));
+    }
+    for (float& value : result)
+        value = std::clamp(value, 0.f, 1.f);
+    return result;
+}
+
+SkyView EclipseSky::dimmed(const OrdinarySky& sky, const int halfViews, const int azimuths) const
+{
+    const auto& planet = atmosphere_.planet();
+    const double altitude = scene_->bodies.cameraAltitude;
+    SkyAxes axes{physics::horizonElevation(planet, altitude), true,
+                 std::asin(std::clamp(scene_->bodies.sunDirection[2], -1., 1.))};
+    SkyView result;
+    result.eclipse = true;
+    result.whole = ViewTable(halfViews, azimuths);
+    result.scattered.assign(sky.view.scattered.size(), ViewTable());
+    for (std::size_t i = 0; i < sky.view.scattered.size(); ++i)
+        if (!sky.view.scattered[i].empty())
+            result.scattered[i] = ViewTable(halfViews, azimuths);
+    // As fine as they are drawn without an eclipse.
+    const auto fine = [](const ViewTable& table) { return resampled(table, drawnHalfViews, drawnAzimuths); };
+    const ViewTable multiple = fine(sky.view.whole), direct = fine(sky.groundDirect), diffuse = fine(sky.groundDiffuse),
+                    glow = fine(sky.glow);
+    std::vector<ViewTable> single;
+    for (const auto& table : sky.view.scattered)
+        single.push_back(fine(table));
+    std::vector<double> relatives;
+    for (int a = 0; a < azimuths; ++a)
+        relatives.push_back(axes.azimuthAt(double(a) / (azimuths - 1)));
+
+    const auto scatterers = static_cast<std::size_t>(atmosphere_.scatterers());
+    sky::base::parallel([&](int thread, int threads) {
+        EclipseShares::Line line;
+        std::vector<Texel> left(scatterers), all(scatterers);
+        for (int v = thread; v < 2 * halfViews; v += threads) {
+            const int half = v / halfViews;
+            const double elevation = axes.elevationAt(double(v % halfViews) / (halfViews - 1), half);
+            const double coordinate = std::asinh(std::abs(elevation - axes.horizon) / physics::horizonAngleScale) /
+                                      std::asinh(axes.range(half) / physics::horizonAngleScale);
+            const double mu = std::sin(elevation), flat = std::cos(elevation);
+            shares_.line(coordinate, half, line);
+            const auto toGround = static_cast<float>(half == 1 ? physics::distanceToGround(planet, altitude, mu) : 0);
+            for (int a = 0; a < azimuths; ++a) {
+                const double relative = relatives[static_cast<std::size_t>(a)], azimuth = std::abs(relative) / pi;
+                const std::array<float, 3> direction{static_cast<float>(flat * std::cos(sunAzimuth_ + relative)),
+                                                     static_cast<float>(flat * std::sin(sunAzimuth_ + relative)),
+                                                     static_cast<float>(mu)};
+                const auto lightAt = [&](float distance) {
+                    return light_->at({distance * direction[0], distance * direction[1], distance * direction[2]});
+                };
+                Texel& whole = result.whole.at(v, a);
+                const auto add = [&](const ViewTable& table, const Texel& factor) {
+                    if (table.empty())
+                        return;
+                    const Texel value = sampled(table, coordinate, half, azimuth);
+                    for (std::size_t c = 0; c < 4; ++c)
+                        whole[c] += factor[c] * value[c];
+                };
+                if (!multiple.empty())
+                    add(multiple, ratioAt(skyRatios_, coordinate, half, relative));
+                if (half == 1 && !direct.empty()) {
+                    add(direct, lightAt(toGround));
+                    add(diffuse, ratioAt(groundRatios_, coordinate, half, relative));
+                }
+                add(glow, {1, 1, 1, 1});
+                if (!line.lit || single.empty())
+                    continue;
+                std::fill(left.begin(), left.end(), Texel{});
+                std::fill(all.begin(), all.end(), Texel{});
+                const double column = azimuth * (EclipseShares::azimuths - 1);
+                const int k = std::min(static_cast<int>(column), EclipseShares::azimuths - 2);
+                const auto x = static_cast<float>(column - k);
+                const Texel *near = &line.light[static_cast<std::size_t>(k * EclipseShares::nodes) * scatterers],
+                            *far = near + static_cast<std::size_t>(EclipseShares::nodes) * scatterers;
+                for (std::size_t n = 0; n < EclipseShares::nodes; ++n) {
+                    const Texel visible = lightAt(line.distance[n]);
+                    for (std::size_t i = 0; i < scatterers; ++i, ++near, ++far)
+                        for (std::size_t c = 0; c < 4; ++c) {
+                            const float light = (*near)[c] + x * ((*far)[c] - (*near)[c]);
+                            all[i][c] += light;
+                            left[i][c] += light * visible[c];
+                        }
+                }
+                for (std::size_t i = 0; i < single.size(); ++i) {
+                    if (single[i].empty())
+                        continue;
+                    const Texel value = sampled(single[i], coordinate, half, azimuth);
+                    for (std::size_t c = 0; c < 4; ++c)
+                        result.scattered[i].at(v, a)[c] =
+                            all[i][c] > 0 ? value[c] * (left[i][c] / all[i][c]) : value[c];
+                }
+            }
+        }
+    });
+    return result;
+}
+
+void EclipseSky::visibleAt(const std::array<double, 3>& direction, const double distance, double* const result) const
+{
+    const auto discs = shadow_.discs({distance * direction[0], distance * direction[1], distance * direction[2]});
+    if (scene_->limbDarkening)
+        law_.visible(discs, result);
+    else
+        std::fill_n(result, atmosphere_.wavelengths(), physics::visibleFraction(discs));
+}
+
+EclipseSky::Ratios EclipseSky::ratios(const std::array<double, 3>& direction, const bool ground) const
+{
+    const auto wavelengths = static_cast<std::size_t>(atmosphere_.wavelengths());
+    Ratios result{std::vector<double>(wavelengths, 1.), std::vector<double>(wavelengths, 1.)};
+    if (!field_)
+        return result;
+    const auto light = field_->view({viewRay(direction[2], ground)}, {std::atan2(direction[1], direction[0])});
+    for (int w = 0; w < light.wavelengths; ++w) {
+        result.sky[static_cast<std::size_t>(w)] = static_cast<double>(light.skyRatio(0, 0, w));
+        result.ground[static_cast<std::size_t>(w)] = static_cast<double>(light.groundRatio(0, 0, w));
+    }
+    return result;
+}
+
+} // namespace showmysky

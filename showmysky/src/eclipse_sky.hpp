@@ -1,0 +1,76 @@
+#pragma once
+// The sky in an eclipse: an ordinary sky dimmed, each part by how much of its light the Moon takes.
+//
+// Single scattering is dimmed by the visible fraction of the disc at many nodes along each line of sight, weighted by
+// where its light comes from (EclipseShares); higher orders by the quotient of eclipsed and uneclipsed light of a local
+// field (sky::eclipse); the ground by both. Everything is a factor on the ordinary sky: where the Moon hides nothing it
+// is exactly 1.
+
+#include "eclipse/field.hpp"
+#include "eclipse_shares.hpp"
+#include "settings_used.hpp"
+#include "shadow_light.hpp"
+#include "sky_axes.hpp"
+
+namespace showmysky {
+
+/// A sky without Moon, its parts apart.
+struct OrdinarySky {
+    SkyView view;                          ///< `whole`: multiple scattering alone
+    ViewTable groundDirect, groundDiffuse; ///< empty where the ground isn't shown
+    ViewTable glow;                        ///< light that isn't the Sun's; may be empty
+};
+
+/// What an eclipse's light depends on, beside the altitude.
+struct EclipseScene {
+    sky::physics::EclipseBodies bodies;
+    sky::eclipse::Orders orders;
+    bool limbDarkening = false;
+    bool field = true;          ///< false: nothing of higher orders is asked for
+    std::vector<Texel> weights; ///< [wavelength]
+};
+
+class EclipseSky
+{
+public:
+    EclipseSky(const Atmosphere& atmosphere, const sky::physics::SunTable& sun);
+
+    /// Begins anew what another scene changes.   throws sky::RangeError
+    void set(const EclipseScene& scene);
+    /// Does a part of the work; true once all is done.
+    bool step();
+    double fractionDone() const;
+
+    SkyView dimmed(const OrdinarySky& sky, int halfViews, int azimuths) const;
+
+    /// Share of the Sun's light left at a distance in a direction (unit vector), [wavelength].
+    void visibleAt(const std::array<double, 3>& direction, double distance, double* result) const;
+    /// Share left of the light of higher orders in a direction, and of the diffuse light of the ground there,
+    /// [wavelength].
+    struct Ratios {
+        std::vector<double> sky, ground;
+    };
+    Ratios ratios(const std::array<double, 3>& direction, bool ground) const;
+    const sky::eclipse::ScatteredField* field() const { return field_ ? &*field_ : nullptr; }
+
+private:
+    std::vector<sky::eclipse::ViewRay> viewRays() const;
+    sky::eclipse::ViewRay viewRay(double mu, bool ground) const;
+    void tabulateRatios();
+    Texel ratioAt(const std::vector<Texel>& table, double coordinate, int half, double relative) const;
+
+    const Atmosphere& atmosphere_;
+    const sky::physics::SunTable& sun_;
+    sky::physics::LimbDarkening law_;
+    std::shared_ptr<const sky::eclipse::AirRays> air_;
+    EclipseShares shares_;
+    std::optional<EclipseScene> scene_;
+    sky::physics::Shadow shadow_;
+    std::optional<ShadowLight> light_;
+    std::optional<sky::eclipse::ScatteredField> field_;
+    std::vector<Texel> skyRatios_, groundRatios_; ///< [ray][azimuth, whole turn from the Sun's]
+    double sunAzimuth_ = 0;                       ///< in the frame, from x to y
+    bool ready_ = false;
+};
+
+} // namespace showmysky
