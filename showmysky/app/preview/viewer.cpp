@@ -1,7 +1,6 @@
 #include "viewer.hpp"
 
 #include "base/error.hpp"
-#include "obscuration.hpp"
 #include "scene_file.hpp"
 #include "spectrum_plot.hpp"
 #include <chrono>
@@ -22,13 +21,17 @@ double secondsSince(Clock::time_point start)
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-std::string inWords(const Obscuration& o)
+std::string inWords(const EclipseState& state)
 {
-    if (o.moonRadius == 0)
-        return "The Moon is not on the Sun's side of the sky.";
+    using Phase = EclipseState::Phase;
+    constexpr double degree = 3.14159265358979323846 / 180;
+    const char* phase = state.phase == Phase::total     ? "total eclipse"
+                        : state.phase == Phase::annular ? "annular eclipse"
+                        : state.phase == Phase::partial ? "partial eclipse"
+                                                        : "no eclipse";
     char text[160];
-    std::snprintf(text, sizeof text, "%.2f %% of the Sun is hidden (radii %.4f and %.4f, %.4f apart).", 100 * o.hidden,
-                  o.sunRadius, o.moonRadius, o.separation);
+    std::snprintf(text, sizeof text, "%s: %.2f %% of the Sun is hidden, magnitude %.4f, centres %.4f degrees apart",
+                  phase, 100 * state.obscuration, state.magnitude, state.separation / degree);
     return text;
 }
 
@@ -132,8 +135,7 @@ void Viewer::updateRefusals()
         s.onTheFlySingleScattering = true;
     });
     try {
-        known_.obscuration = inWords(obscuration(settingsFor(sky, state_.scene), sky.planetRadius(),
-                                                 sky.topOfAtmosphere(), sky.sunAngularRadius()));
+        known_.obscuration = inWords(sky.eclipseState(settingsFor(sky, state_.scene)));
     } catch (const std::exception& error) {
         known_.obscuration = error.what();
     }

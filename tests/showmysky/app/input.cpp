@@ -172,3 +172,13 @@ TEST_CASE("input: keys and dropped files are wishes")
     CHECK(wish(KeyPressed{Key::q, {false, true}}).quit);
     CHECK(wish(Dropped{{"a.atmo"}}).open == std::vector<std::string>{"a.atmo"});
 }
+
+TEST_CASE("input: the Moon is put where the Sun is")
+{
+    Hand hand;
+    hand.scene.sunZenith = 33;
+    hand.scene.sunAzimuth = -12;
+    putMoonOnSun(hand.scene);
+    CHECK(hand.scene.moonZenith == 33);
+    CHECK(hand.scene.moonAzimuth == -12);
+}

@@ -3,8 +3,6 @@
 #include "base/error.hpp"
 #include "base/files.hpp"
 #include "preview/computation.hpp"
-#include "preview/input.hpp"
-#include "preview/obscuration.hpp"
 #include "preview/places.hpp"
 #include "preview/preferences.hpp"
 #include "preview/watch.hpp"
@@ -19,8 +17,6 @@ using namespace showmysky::app::preview;
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr double degree = 3.14159265358979323846 / 180;
 
 /// An environment variable for a scope.
 class Variable
@@ -72,14 +68,6 @@ std::string problemOf(const std::string& script, std::string* lastStage = nullpt
     if (fraction)
         *fraction = computation.fraction();
     return computation.problem();
-}
-
-Obscuration seen(double moonZenithOffset, double moonDistance)
-{
-    SceneSettings settings;
-    settings.sun.zenithAngle = 0;
-    settings.moon = {0, moonZenithOffset * degree, moonDistance};
-    return obscuration(settings, 6371e3, 100e3, 0.2666 * degree);
 }
 
 } // namespace
@@ -179,24 +167,4 @@ TEST_CASE("computation: stopping it doesn't wait for its end")
         CHECK_FALSE(computation.done());
     }
     CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(5));
-}
-
-TEST_CASE("obscuration: total, annular, none")
-{
-    const auto total = seen(0, 3.6e8), annular = seen(0, 4.0e8), none = seen(1, 3.6e8);
-    CHECK(total.hidden == 1);
-    const double ratio = annular.moonRadius / annular.sunRadius;
-    CHECK(annular.hidden == Approx(ratio * ratio));
-    CHECK(annular.hidden < 1);
-    CHECK(none.hidden == 0);
-    CHECK(total.moonRadius == Approx(std::asin(1737.4e3 / (3.6e8 - 6371e3)) / degree).epsilon(1e-6));
-
-    SceneOptions scene;
-    scene.sunZenith = 33;
-    scene.sunAzimuth = -12;
-    putMoonOnSun(scene);
-    SceneSettings settings;
-    settings.sun = {scene.sunAzimuth * degree, scene.sunZenith * degree, {}};
-    settings.moon = {scene.moonAzimuth * degree, scene.moonZenith * degree, 3.6e8};
-    CHECK(obscuration(settings, 6371e3, 100e3, 0.2666 * degree).separation == Approx(0).margin(1e-6));
 }
