@@ -148,12 +148,15 @@ RayNodes RayTracer::trace(const double altitude, const double mu, const int coun
         turned += std::abs(spread(p, altitudes_[c + 1]) - spread(p, altitudes_[c]));
     }
 
-    // Nodes at equal steps of a mixed measure: where the light comes from, altitude, and length.
+    // Nodes at equal steps of a mixed measure: where the light comes from, altitude, and length; the former counts for more the less
+    // one sees through, lest a cloud leave most nodes behind it.
+    const double lost = 1 - *std::max_element(transmittance.begin(), transmittance.end());
+    const double byLight = 0.3 + 0.4 * lost * lost, byAltitude = 0.3 * (1 - byLight), byLength = 0.7 * (1 - byLight);
     for (int c = 0; c < cells; ++c) {
         const double light = total > 0 ? share[c] / total : 0;
         const double climb = turned > 0 ? std::abs(spread(p, altitudes_[c + 1]) - spread(p, altitudes_[c])) / turned : 0;
         const double way = (bounds_[c + 1] - bounds_[c]) / length;
-        measure[c + 1] = measure[c] + 0.3 * light + 0.2 * climb + 0.5 * way;
+        measure[c + 1] = measure[c] + byLight * light + byAltitude * climb + byLength * way;
     }
     std::vector<double> position(count, 0.);
     for (int k = 1, c = 0; k < count && cells > 0; ++k) {
