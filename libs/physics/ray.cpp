@@ -108,6 +108,33 @@ void RayTracer::columns(const double altitude, const double mu, double* const re
         result[i % species] += columns_[i];
 }
 
+SeenColumns RayTracer::seen(const double altitude, const double mu, const bool hits)
+{
+    walk(altitude, mu, hits);
+    const int wavelengths = optics_.wavelengths, species = optics_.species;
+    const int cells = static_cast<int>(bounds_.size()) - 1, scatterers = static_cast<int>(optics_.scatterers.size());
+    SeenColumns result{bounds_, std::vector<double>(size_t(cells + 1) * scatterers * wavelengths, 0.), {}};
+    std::vector<double> transmittance(wavelengths, 1.);
+    for (int c = 0; c < cells; ++c)
+        for (int w = 0; w < wavelengths; ++w) {
+            double tau = 0;
+            for (int s = 0; s < species; ++s)
+                tau += columns_[c * species + s] * optics_.extinction[s * wavelengths + w];
+            const double lost = -std::expm1(-tau), mean = transmittance[w] * (tau > 1e-9 ? lost / tau : 1 - 0.5 * tau);
+            transmittance[w] *= 1 - lost;
+            for (int i = 0; i < scatterers; ++i) {
+                const int s = optics_.scatterers[i];
+                const size_t at = (size_t(c) * scatterers + i) * wavelengths + w;
+                result.seen[at + size_t(scatterers) * wavelengths] =
+                    result.seen[at] + columns_[c * species + s] * optics_.scattering[s * wavelengths + w] * mean;
+            }
+        }
+    result.groundTransmittance.assign(wavelengths, 0.);
+    if (hits)
+        result.groundTransmittance = transmittance;
+    return result;
+}
+
 RayNodes RayTracer::trace(const double altitude, const double mu, const int count, const bool hits)
 {
     walk(altitude, mu, hits);

@@ -26,6 +26,14 @@ struct RayNodes {
     std::vector<double> groundTransmittance; ///< [wavelength], 0 if the ray misses the ground
 };
 
+/// What air up to each point of a ray scatters towards its start: the integrals behind RayNodes' weights, for fields that choose
+/// their own nodes.
+struct SeenColumns {
+    std::vector<double> distances;           ///< [cells + 1], m, from 0 to the ground or to space
+    std::vector<double> seen;                ///< [cells + 1][scatterer][wavelength]: integral of beta_sca T from the start
+    std::vector<double> groundTransmittance; ///< [wavelength], 0 if the ray misses the ground
+};
+
 /// Follows rays through a profile. Keeps scratch memory: one tracer a thread.
 class RayTracer
 {
@@ -37,6 +45,9 @@ public:
     ///   count       nodes, >= 2
     ///   hitsGround  whether the ray counts as hitting the ground: decided by the caller's half of a table, not by rounding
     RayNodes trace(double altitude, double mu, int count, bool hitsGround);
+
+    /// The same integrals, cumulated along the ray.
+    SeenColumns seen(double altitude, double mu, bool hitsGround);
 
     /// Column of each species from `altitude` to space, [species], m^-2; the ray must miss the ground.
     void columns(double altitude, double mu, double* result);
