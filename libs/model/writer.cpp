@@ -272,7 +272,7 @@ void ModelWriter::text(const std::string& file, const std::string& content)
     writeTextFile(state_->claim(file), content);
 }
 
-void ModelWriter::commit(Manifest manifest)
+void ModelWriter::commit(Manifest manifest, const std::function<void(double)>& breath)
 {
     manifest.tables.clear();
     manifest.files.clear();
@@ -283,8 +283,14 @@ void ModelWriter::commit(Manifest manifest)
         manifest.tables.push_back(writer->table);
     }
     const fs::path& directory = state_->directory.path();
-    for (const std::string& file : state_->files)
+    const auto breathe = [&](double fraction) {
+        if (breath)
+            breath(fraction);
+    };
+    for (const std::string& file : state_->files) {
+        breathe(double(manifest.files.size()) / double(state_->files.size()));
         manifest.files[file] = fileInfo(directory / file);
+    }
     const std::string text = writeManifest(manifest);
     try {
         parseManifest(text, "manifest.json");
@@ -298,6 +304,7 @@ void ModelWriter::commit(Manifest manifest)
         throw FileError("Meanwhile something that is not a model was put into '" + target.string() +
                         "'; it is left alone and the new model is dropped.");
     writeTextFile(directory / "manifest.json", text);
+    breathe(1);
     state_->directory.replaceTarget();
 }
 

@@ -3,6 +3,7 @@
 
 #include "model/manifest.hpp"
 #include <filesystem>
+#include <functional>
 #include <memory>
 
 namespace sky::model {
@@ -52,8 +53,9 @@ public:
 
     /// Completes the model: `manifest` gets the tables and files and is written last, then the directory is put in
     /// place at once. Nothing can be written afterwards.
+    ///   breath  called with the fraction done, for the last time just before the directory is replaced; throws to stop
     ///   throws RangeError if a table lacks rows or the manifest is not one that a reader accepts; FileError
-    void commit(Manifest manifest);
+    void commit(Manifest manifest, const std::function<void(double)>& breath = {});
 
 private:
     struct State;

@@ -151,8 +151,8 @@ void solve(const atmo::Description& description, const Options& options, gl::Hea
         writeDebugTables(api, job, field, writer, breath);
     }
 
-    stages.begin("writing", stages.work().writing);
-    writer.commit(manifest);
+    breath = stages.begin("writing", stages.work().writing);
+    writer.commit(manifest, breath);
 }
 
 void validate(const atmo::Description& description, gl::HeadlessContext& context)

@@ -93,6 +93,22 @@ TEST_CASE("a writer that is not committed leaves no trace, and the old model who
     CHECK(namesIn(scratch.path) == std::vector<std::string>{"m"}); // parents made for it are gone too
 }
 
+TEST_CASE("a commit can be stopped up to its last moment; then the old model is whole")
+{
+    const Scratch scratch;
+    writeSmallModel(scratch.path / "m");
+    for (const double last : {0., 1.}) {
+        ModelWriter writer(scratch.path / "m");
+        writer.text("description.atmo", "second\n");
+        CHECK_THROWS_AS(writer.commit(smallManifest(), [&](double done) {
+            if (done >= last)
+                throw Cancelled("stop");
+        }), Cancelled);
+    }
+    CHECK(namesIn(scratch.path) == std::vector<std::string>{"m"});
+    CHECK(Model::open(scratch.path / "m").text("description.atmo") == "version: 6\n");
+}
+
 TEST_CASE("commit replaces the old model; nothing of it stays")
 {
     const Scratch scratch;
