@@ -1,10 +1,12 @@
 // showmysky: what was asked goes to the subcommand that does it; errors become sentences and exit codes.
 
 #include "base/error.hpp"
+#include "base/suggest.hpp"
 #include "showmysky/error.hpp"
 #include "subcommand.hpp"
 #include <algorithm>
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <iostream>
 
 namespace {
@@ -18,11 +20,20 @@ int complain(const std::string& message, int code)
 }
 
 /// `showmysky MODEL ...` is `showmysky view MODEL ...`.
+///   throws  sky::UsageError where the first word is neither a subcommand nor a path
 std::vector<std::string> withSubcommand(const std::vector<CLI::App*>& subcommands, std::vector<std::string> words)
 {
-    const auto named = [&](const CLI::App* subcommand) { return subcommand->get_name() == words[0]; };
-    if (!words.empty() && words[0].substr(0, 1) != "-" && std::none_of(subcommands.begin(), subcommands.end(), named))
-        words.insert(words.begin(), "view");
+    if (words.empty() || words[0].substr(0, 1) == "-")
+        return words;
+    std::vector<std::string> names;
+    for (const auto* subcommand : subcommands)
+        names.push_back(subcommand->get_name());
+    if (std::find(names.begin(), names.end(), words[0]) != names.end())
+        return words;
+    if (!std::filesystem::exists(words[0]))
+        throw sky::UsageError("`" + words[0] + "` is neither a subcommand nor a model or description." +
+                              sky::suggestion(words[0], names));
+    words.insert(words.begin(), "view");
     return words;
 }
 

@@ -41,3 +41,16 @@ refused "no/such/model" no/such/model -o sky.png
 refused "touches neither the air nor the camera" "$model" -o sky.png --eclipse --moon-distance 6400000
 refused "There is no scatterer" "$model" -o sky.png --hide-scatterer glitter
 refused "zenith angle of the Sun" "$model" -o sky.png --sun-zenith 190
+
+# Scenes as files.
+"$showmysky" render "$model" -o one.png --size 64x32 --sun-zenith 80 --projection fisheye --save-scene a.scene > /dev/null
+"$showmysky" render "$model" -o two.png --size 64x32 --scene a.scene > /dev/null
+cmp -s one.png two.png || fail "a saved scene draws another picture"
+"$showmysky" render "$model" -o two.png --size 64x32 --sun-zenith 20 --scene a.scene > /dev/null
+cmp -s one.png two.png && fail "an option did not go before the scene file"
+printf 'altitude: 10\nsun-zenit: 3\n' > b.scene
+refused "b.scene:2:1: there is no setting \`sun-zenit\`" "$model" -o sky.png --scene b.scene
+
+code=0
+"$showmysky" rendr "$model" > log 2>&1 || code=$?
+[ $code = 2 ] && grep -qF 'Did you mean `render`?' log || { cat log; fail "a misspelt subcommand: exit code $code"; }

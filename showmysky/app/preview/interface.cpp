@@ -3,6 +3,7 @@
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
+#include <utility>
 
 namespace showmysky::app::preview {
 
@@ -22,10 +23,22 @@ Interface::~Interface()
     ImGui::DestroyContext(context_);
 }
 
-void Interface::begin()
+void Interface::begin(const std::vector<Event>& events)
 {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
+    std::optional<Point> place = std::exchange(release_, std::nullopt);
+    bool pressed = false;
+    for (const auto& event : events) {
+        if (const auto* press = std::get_if<ButtonPressed>(&event)) {
+            place = press->at;
+            pressed = true;
+        } else if (const auto* release = std::get_if<ButtonReleased>(&event)) {
+            (pressed ? release_ : place) = release->at;
+        }
+    }
+    if (place)
+        ImGui::GetIO().MousePos = {static_cast<float>(place->x), static_cast<float>(place->y)};
     ImGui::NewFrame();
 }
 

@@ -2,6 +2,7 @@
 // Dear ImGui in the window.
 
 #include "window.hpp"
+#include <optional>
 
 struct ImGuiContext;
 
@@ -16,7 +17,8 @@ public:
     Interface(const Interface&) = delete;
     Interface& operator=(const Interface&) = delete;
 
-    void begin();
+    /// A click counts where it was made, even if the pointer has left since, as it does when frames take long.
+    void begin(const std::vector<Event>& events);
     /// Draws all widgets since begin() into the framebuffer that is bound.
     void end();
     bool wantsPointer() const;
@@ -24,6 +26,7 @@ public:
 
 private:
     ImGuiContext* context_;
+    std::optional<Point> release_; ///< of a button that went down and up between two frames: it belongs to the next one
 };
 
 } // namespace showmysky::app::preview

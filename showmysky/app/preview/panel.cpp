@@ -76,8 +76,14 @@ void drawPlaces(SceneOptions& scene, const PanelFacts& facts)
     if (ImGui::Button("Put the Moon on the Sun"))
         putMoonOnSun(scene);
     ImGui::TextWrapped("%s", facts.obscuration.c_str());
-    if (scene.eclipse)
-        complaint(facts.eclipseRefusal);
+    if (!scene.eclipse)
+        return;
+    complaint(facts.eclipseRefusal);
+    if (slider("orders followed", scene.eclipseOrders, 0, 10, scene.eclipseOrders > 0 ? "%.0f" : "all of the model"))
+        scene.eclipseOrders = std::round(scene.eclipseOrders);
+    ImGui::Checkbox("fine tables", &scene.eclipseFine);
+    ImGui::SameLine();
+    ImGui::Checkbox("limb darkening", &scene.limbDarkening);
 }
 
 void drawCamera(SceneOptions& scene)

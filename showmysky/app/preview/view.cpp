@@ -5,6 +5,7 @@
 #include "subcommand.hpp"
 #include "viewer.hpp"
 #include <CLI/CLI.hpp>
+#include <filesystem>
 
 namespace showmysky::app {
 
@@ -25,6 +26,8 @@ public:
 
     int run() override
     {
+        if (!model_.empty() && !std::filesystem::exists(model_))
+            throw sky::UsageError("There is no model or description `" + model_ + "`.");
         preview::limitFieldOfView(state_.scene);
         preview::Viewer viewer(state_);
         viewer.note(note_);

@@ -232,7 +232,7 @@ void Viewer::run()
             framesDue_ = framesAfterEvent;
         const bool drawing = framesDue_ > 0;
         if (drawing) {
-            interface_.begin(); // before the events: it knows which of them belong to widgets
+            interface_.begin(events); // before the events: it knows which of them belong to widgets
             handle(events);
         }
         updateModel();
