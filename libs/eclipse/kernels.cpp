@@ -170,12 +170,20 @@ void foldPoint(int degree, const Lane* lower, const Lane* upper, float share, co
 }
 
 SKY_WIDEST_VECTORS
-void addFolded(int degree, const Lane* terms, float weight, bool mirrored, const float* cosines, const float* sines, Lane& sum)
+void addFolded(int degree, int count, const Lane* const* terms, const float* weights, const bool* mirrored, const float* cosines,
+               const float* sines, Lane& sum)
 {
-    Lane value = terms[0];
-    for (int m = 1; m <= degree; ++m)
-        value += cosines[m] * terms[m] + (mirrored ? -sines[m] : sines[m]) * terms[degree + m];
-    sum += weight * value;
+    Lane value{};
+    for (int m = 0; m <= degree; ++m) {
+        Lane even{}, odd{}; // about the mirror plane
+        for (int c = 0; c < count; ++c) {
+            even += weights[c] * terms[c][m];
+            if (m > 0)
+                odd += (mirrored[c] ? -weights[c] : weights[c]) * terms[c][degree + m];
+        }
+        value += cosines[m] * even + sines[m] * odd;
+    }
+    sum += value;
 }
 
 SKY_WIDEST_VECTORS

@@ -37,8 +37,9 @@ void addShifted(const Shift& shift, int sourceAlong, const Lane* plane, const La
 /// Where light of a level comes from: factors of cos(m phi), then of sin(m phi), m >= 1, at one point.
 ///   lower, upper  [harmonic];  terms  [2 degree + 1], written; else as radiate()
 void foldPoint(int degree, const Lane* lower, const Lane* upper, float share, const Lane* coefficients, Lane* terms);
-/// Adds `weight` times the folded light of a point in a direction to `sum`; `mirrored` swaps the sides.
-void addFolded(int degree, const Lane* terms, float weight, bool mirrored, const float* cosines, const float* sines, Lane& sum);
+/// Light in a direction from between `count` folded points: `weights` of each; `mirrored` swaps the sides. Adds to `sum`.
+void addFolded(int degree, int count, const Lane* const* terms, const float* weights, const bool* mirrored, const float* cosines,
+               const float* sines, Lane& sum);
 
 /// upper share + lower (1 - share).
 void mix(const Lane* lower, const Lane* upper, float share, int points, Lane* result);

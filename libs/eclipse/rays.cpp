@@ -17,14 +17,39 @@ constexpr double pi = 3.14159265358979323846;
 
 double measureOf(const physics::Planet& p, double h) { return std::sqrt(std::max(0., physics::radiusExcessSquared(p, h))); }
 
-std::vector<double> gridAltitudes(const physics::Profile& profile, const physics::Optics& optics, int count)
+/// Share of the column of scatterers above which air sends on too little light to know more of than that of the highest level.
+constexpr double negligibleColumn = 3e-4;
+
+/// Altitude above which less than that share of every scatterer stands.
+double highestLevel(const physics::Medium& medium, const physics::Optics& optics)
+{
+    double highest = 0;
+    for (const int s : optics.scatterers) {
+        const auto& n = medium.species[static_cast<std::size_t>(s)].numberDensity;
+        std::vector<double> above(n.size(), 0.);
+        for (std::size_t k = n.size() - 1; k > 0; --k)
+            above[k - 1] = above[k] + 0.5 * (n[k] + n[k - 1]) * (medium.altitudes[k] - medium.altitudes[k - 1]);
+        for (std::size_t k = 0; k < n.size(); ++k)
+            if (above[k] > negligibleColumn * above[0])
+                highest = std::max(highest, medium.altitudes[std::min(k + 1, n.size() - 1)]);
+    }
+    return highest > 0 ? highest : medium.topOfAtmosphere;
+}
+
+std::vector<double> gridAltitudes(const physics::Medium& medium, const physics::Profile& profile, const physics::Optics& optics, int count)
 {
     std::vector<double> largest;
     for (int s = 0; s < optics.species; ++s) {
         const auto first = optics.extinction.begin() + s * optics.wavelengths;
         largest.push_back(*std::max_element(first, first + optics.wavelengths));
     }
-    return physics::MomentGrid(profile, largest, count, 2).altitudes();
+    const auto& planet = profile.planet();
+    const double highest = highestLevel(medium, optics);
+    const int whole = static_cast<int>(std::ceil((count - 1) * measureOf(planet, planet.topOfAtmosphere) / measureOf(planet, highest))) + 1;
+    auto levels = physics::MomentGrid(profile, largest, whole, 2).altitudes();
+    const auto last = std::lower_bound(levels.begin() + 1, levels.end() - 1, highest);
+    levels.erase(last + 1, levels.end());
+    return levels;
 }
 
 /// Even levels for sunlight, with those of the grid among them: a layer's edges are there.
@@ -76,7 +101,7 @@ AirRays::AirRays(const physics::Medium& medium_, const physics::Profile& profile
     : medium(medium_), profile(profile_), optics(optics_), settings(checked(settings_)),
       degree(std::clamp(std::min(settings_.degree, optics_.degree), 0, mostDegree)), wavelengths(optics_.wavelengths),
       groups(groupsOf(wavelengths)), scatterers(static_cast<int>(optics_.scatterers.size())),
-      levels(profile_.planet(), gridAltitudes(profile_, optics_, settings_.altitudes)),
+      levels(profile_.planet(), gridAltitudes(medium_, profile_, optics_, settings_.altitudes)),
       sunlightLevels(profile_.planet(), sunlightAltitudes(profile_.planet(), levels, settings_.sunlightAltitudes))
 {
     for (int g = 0; g < groups; ++g)

@@ -5,7 +5,7 @@ namespace sky::eclipse {
 /// How finely the field around an observer is computed. docs/eclipses.md has what each costs and brings. Errors that eclipsed
 /// and uneclipsed light have in common cancel, so that much less than the ordinary solver's settings will do.
 struct FieldSettings {
-    int altitudes = 12;       ///< levels before the medium asks for more
+    int altitudes = 9;        ///< levels, over the air that scatters light worth mentioning, before the medium asks for more
     int along = 17;           ///< points in the mirror plane, towards the Sun and away, >= 2
     int across = 9;           ///< points away from the mirror plane, >= 2
     double reach = 1200e3;    ///< m: how far the grid goes beyond the observer and the shadow
@@ -29,7 +29,7 @@ constexpr int mostDegree = 6;
 struct Orders {
     int orders = 4;        ///< of the light that is seen: the field has one event less. 2: light of second order alone
     bool all = false;      ///< go on until closing the series as a geometric one changes nothing above the tolerance
-    double tolerance = 2e-3; ///< relative; with `all`
+    double tolerance = 5e-3; ///< relative; with `all`
 };
 
 } // namespace sky::eclipse

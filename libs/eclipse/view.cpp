@@ -30,15 +30,15 @@ public:
         std::fill(known_.begin(), known_.end(), char(0));
     }
 
-    /// Adds `weight` times the light at a point; `mirrored` swaps the sides.
-    void add(int point, float weight, bool mirrored, const float* cosines, const float* sines, Lane& sum)
+    /// The folded light of a point.
+    const Lane* at(int point)
     {
         Lane* terms = &folded_[static_cast<std::size_t>(point * terms_)];
         auto& known = known_[static_cast<std::size_t>(point)];
         if (!known)
             foldPoint(degree_, lower_ + point * allHarmonics(degree_), upper_ + point * allHarmonics(degree_), share_, coefficients_, terms);
         known = 1;
-        addFolded(degree_, terms, weight, mirrored, cosines, sines, sum);
+        return terms;
     }
 
 private:
@@ -171,8 +171,10 @@ ViewLight ScatteredField::view(const TracedViews& views, const std::vector<doubl
                                &ray.coefficients[static_cast<std::size_t>((g * nodes + k) * terms)]);
                     for (std::size_t a = 0; a < azimuths.size(); ++a) {
                         const std::size_t first = a * (static_cast<std::size_t>(degree) + 1);
+                        const Lane* points[16];
                         for (int c = 0; c < 16; ++c)
-                            fold.add(corners[a].point[c], corners[a].weight[c], corners[a].mirrored[c], &cosines[first], &sines[first], sums[a]);
+                            points[c] = fold.at(corners[a].point[c]);
+                        addFolded(degree, 16, points, corners[a].weight, corners[a].mirrored, &cosines[first], &sines[first], sums[a]);
                     }
                 }
                 for (int a = 0; a < count; ++a)

@@ -22,7 +22,7 @@ eclipse::FieldSettings tableSettings(const std::string& quality)
 {
     eclipse::FieldSettings s;
     if (quality == "draft") {
-        s.altitudes = 8;
+        s.altitudes = 7;
         s.along = 13;
         s.across = 7;
         s.degree = 3;
@@ -33,6 +33,7 @@ eclipse::FieldSettings tableSettings(const std::string& quality)
         s.nodes = 6;
         s.viewNodes = 10;
     } else if (quality == "normal") {
+        s.altitudes = 8;
         s.along = 15;
         s.across = 8;
         s.directNodes = 16;
@@ -40,7 +41,7 @@ eclipse::FieldSettings tableSettings(const std::string& quality)
         s.viewNodes = 16;
     } else {
         const bool finest = quality == "reference";
-        s.altitudes = finest ? 20 : 16;
+        s.altitudes = finest ? 20 : 14;
         s.along = finest ? 33 : 21;
         s.across = finest ? 17 : 11;
         s.degree = 5;
