@@ -5,7 +5,7 @@ namespace sky::eclipse {
 /// How finely the field around an observer is computed. docs/eclipses.md has what each costs and brings. Errors that eclipsed
 /// and uneclipsed light have in common cancel, so that much less than the ordinary solver's settings will do.
 struct FieldSettings {
-    int altitudes = 9;        ///< levels, over the air that scatters light worth mentioning, before the medium asks for more
+    int altitudes = 12;       ///< levels, over the air that scatters light worth mentioning, before the medium asks for more
     int along = 17;           ///< points in the mirror plane, towards the Sun and away, >= 2
     int across = 9;           ///< points away from the mirror plane, >= 2
     double reach = 1200e3;    ///< m: how far the grid goes beyond the observer and the shadow
@@ -19,7 +19,7 @@ struct FieldSettings {
     int nodes = 10;           ///< along a ray, for scattered light
     int sunlightAltitudes = 32; ///< levels at which sunlight is known
     int sunlightRefinement = 1; ///< points of sunlight per point of the grid, along and across
-    int viewNodes = 20;       ///< along a ray that is seen
+    int viewNodes = 32;       ///< along a ray that is seen
 };
 
 /// Largest degree of the harmonics.

@@ -33,12 +33,11 @@ eclipse::FieldSettings tableSettings(const std::string& quality)
         s.nodes = 6;
         s.viewNodes = 10;
     } else if (quality == "normal") {
-        s.altitudes = 8;
         s.along = 15;
         s.across = 8;
         s.directNodes = 16;
-        s.nodes = 8;
-        s.viewNodes = 16;
+        s.nodes = 9;
+        s.viewNodes = 28;
     } else {
         const bool finest = quality == "reference";
         s.altitudes = finest ? 20 : 14;
