@@ -36,16 +36,19 @@ void addElement(const float* __restrict columns, const float* __restrict extinct
 
 SKY_WIDEST_VECTORS
 void addTerms(const float* __restrict moments, const float* __restrict factors, const float* __restrict lambdas, int degree,
-              int scatterers, int stride, float* __restrict result)
+              int scatterers, int stride, float* __restrict sums, float* __restrict result)
 {
-    for (int w = 0; w < stride; ++w)
-        for (int l = 0, lm = 0; l <= degree; ++l) {
-            float sum = 0;
-            for (int m = 0; m <= l; ++m, ++lm)
-                sum += factors[lm] * moments[lm * stride + w];
-            for (int i = 0; i < scatterers; ++i)
-                result[i * stride + w] += sum * lambdas[(i * (degree + 1) + l) * stride + w];
-        }
+    for (int l = 0, lm = 0; l <= degree; ++l) {
+        for (int w = 0; w < stride; ++w)
+            sums[w] = factors[lm] * moments[lm * stride + w];
+        ++lm;
+        for (int m = 1; m <= l; ++m, ++lm)
+            for (int w = 0; w < stride; ++w)
+                sums[w] += factors[lm] * moments[lm * stride + w];
+        for (int i = 0; i < scatterers; ++i)
+            for (int w = 0; w < stride; ++w)
+                result[i * stride + w] += sums[w] * lambdas[(i * (degree + 1) + l) * stride + w];
+    }
 }
 
 } // namespace
@@ -184,7 +187,7 @@ void CityAir::scattered(const double altitude, const double fromCity, const doub
     std::fill(result, result + scatterers() * stride_, 0.F);
     Element elements[mostElements];
     const int count = elementsOf(altitude, fromCity, discRadius, elements);
-    auto& [columns, near, far] = scratch;
+    auto& [columns, sums, near, far] = scratch;
     columns.resize(species_);
     near.resize(scatterers());
     far.resize(scatterers());
@@ -205,9 +208,10 @@ void CityAir::scattered(const double altitude, const double fromCity, const doub
     }
 }
 
-void CityAir::addHarmonics(const float* const moments, const float* const factors, float* const result) const
+void CityAir::addHarmonics(const float* const moments, const float* const factors, Scratch& scratch, float* const result) const
 {
-    addTerms(moments, factors, lambdas_.data(), optics_.degree, scatterers(), stride_, result);
+    scratch.sums.resize(stride_);
+    addTerms(moments, factors, lambdas_.data(), optics_.degree, scatterers(), stride_, scratch.sums.data(), result);
 }
 
 } // namespace sky::physics

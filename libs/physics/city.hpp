@@ -34,7 +34,7 @@ public:
     const Optics& optics() const { return optics_; }
 
     struct Scratch {
-        std::vector<float> columns;
+        std::vector<float> columns, sums;
         std::vector<const float*> near, far;
     };
 
@@ -53,7 +53,7 @@ public:
     ///   moments  [lm][stride]
     ///   factors  Y_lm of the direction, [lm]
     ///   result   [scatterer][stride]
-    void addHarmonics(const float* moments, const float* factors, float* result) const;
+    void addHarmonics(const float* moments, const float* factors, Scratch& scratch, float* result) const;
 
     int stride() const { return stride_; } ///< wavelengths, rounded up to whole vectors
     int scatterers() const { return static_cast<int>(optics_.scatterers.size()); }

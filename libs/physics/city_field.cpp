@@ -15,9 +15,9 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 
 /// Nodes of a ray: about the place nearest to the city, and where the light that is seen comes from.
-constexpr int viewNearNodes = 24, fieldNearNodes = 12, fieldFarNodes = 10;
+constexpr int viewNearNodes = 18, fieldNearNodes = 12, fieldFarNodes = 10;
 constexpr int levels = 14, anglesOfField = 26, azimuthsOfField = 6, fewestEvents = 3, mostEvents = 8;
-constexpr double tolerance = 0.01; // relative change of the closed series, where the field is bright, at which events end
+constexpr double tolerance = 0.02; // relative change of the closed series, where the field is bright, at which events end
 constexpr float darkLog2 = -100.F; // of a radiance that is told from darkness
 
 /// A point of a ray.
@@ -118,7 +118,7 @@ void addScattered(const CityAir& air, const CityField& field, const Node& node, 
         previous = wave;
         wave = next;
     }
-    air.addHarmonics(scratch.moments.data(), scratch.factors.data(), result);
+    air.addHarmonics(scratch.moments.data(), scratch.factors.data(), scratch.air, result);
 }
 
 SKY_WIDEST_VECTORS
@@ -145,7 +145,7 @@ void toLogRatios(float* values, int harmonics, int stride)
     }
 }
 
-/// Largest relative difference that the last event made to the closed series, where there is a ten-thousandth of the brightest light.
+/// Largest relative difference that the last event made to the closed series, where there is a thousandth of the brightest light.
 double change(const std::vector<float>& total, const std::vector<float>& last, const std::vector<float>& before,
               const std::vector<float>& earlier, size_t step, int stride)
 {
@@ -157,7 +157,7 @@ double change(const std::vector<float>& total, const std::vector<float>& last, c
         for (int w = 0; w < stride; ++w) {
             const double sum = double(total[point + w]), added = double(last[point + w]), prior = double(before[point + w]);
             const double now = sum + geometricTail(added, prior), then = sum - added + geometricTail(prior, double(earlier[point + w]));
-            if (now > 1e-4 * brightest)
+            if (now > 1e-3 * brightest)
                 largest = std::max(largest, std::abs(now - then) / now);
         }
     return largest;

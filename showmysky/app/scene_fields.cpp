@@ -161,6 +161,14 @@ std::vector<SceneField> makeFields()
         SceneField::Kind::value,
         [](SceneOptions& options, std::string_view text) { options.solarSpectrum = parseSolarSpectrum(text); },
         [](const SceneOptions& options) { return toText(options.solarSpectrum); }};
+    const SceneField cities{
+        "city",
+        scene,
+        "distance=M,azimuth=DEGREES,radius=M,luminance=CD/M2[,spectrum=A:B:...]: a glowing disc on the ground; lengths may "
+        "end in km; more after semicolons, or more options",
+        SceneField::Kind::repeated,
+        [](SceneOptions& options, std::string_view text) { options.cities = parseCities(text); },
+        [](const SceneOptions& options) { return toText(options.cities); }};
     return {
         number("altitude", scene, "of the camera, m", of(&SceneOptions::altitude)),
         number("sun-zenith", scene, "zenith angle of the Sun, degrees", of(&SceneOptions::sunZenith)),
@@ -176,6 +184,7 @@ std::vector<SceneField> makeFields()
         flag("limb-darkening", scene, "in an eclipse, let the Sun be darker towards its limb",
              of(&SceneOptions::limbDarkening)),
         number("light-pollution", scene, "luminance of the ground, cd/m^2", of(&SceneOptions::lightPollution)),
+        cities,
         choice("source", scene, "tables that the light comes from: ", sourceNames(), of(&SceneOptions::source)),
         flag("on-the-fly", scene, "with textures: gather single scattering instead of looking it up",
              of(&SceneOptions::onTheFly)),

@@ -13,8 +13,9 @@ struct SceneField {
     enum class Kind {
         value,
         flag,
-        list
-    } kind = Kind::value; ///< a flag is an option without value, `yes` or `no` in a file
+        list,
+        repeated
+    } kind = Kind::value; ///< a flag is an option without value, `yes` or `no` in a file; repeated ones are joined by semicolons
     /// throws sky::UsageError: what was expected
     std::function<void(SceneOptions&, std::string_view text)> read;
     std::function<std::string(const SceneOptions&)> write;

@@ -50,6 +50,8 @@ void SceneOptions::addTo(CLI::App& app)
             },
             field.help);
         added->default_str(field.write(*this))->type_name("")->group(field.group);
+        if (field.kind == SceneField::Kind::repeated)
+            added->delimiter(';')->multi_option_policy(CLI::MultiOptionPolicy::Join);
         if (field.kind == SceneField::Kind::list)
             added->delimiter(',')->multi_option_policy(CLI::MultiOptionPolicy::Join);
     }
@@ -69,7 +71,9 @@ SceneSettings SceneOptions::settings(const Sky& sky) const
     settings.layers.zeroOrder = has("zero") || has("sun");
     settings.layers.singleScattering = has("single");
     settings.layers.multipleScattering = has("multiple");
-    settings.layers.lightPollution = lightPollution > 0;
+    settings.layers.lightPollution = lightPollution > 0 || !cities.empty();
+    for (const auto& city : cities)
+        settings.cities.push_back(city.city());
     settings.layers.hiddenScatterers = hiddenScatterers;
     settings.lightPollutionLuminance = lightPollution;
     settings.source = source;

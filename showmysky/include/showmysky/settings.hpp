@@ -16,7 +16,7 @@ struct Layers {
     bool solarDisc = false; ///< the attenuated disc: far too bright for most pictures, so it is asked for
     bool singleScattering = true;
     bool multipleScattering = true;
-    bool lightPollution = false;               ///< the glowing ground, and the air above it; needs a model that has it
+    bool lightPollution = false;               ///< the glowing ground, cities, and the air above; an even glow needs a model that has it
     std::vector<std::string> hiddenScatterers; ///< whose single scattering is left out, by the names in the model
 };
 
@@ -40,6 +40,22 @@ struct Moon {
     double distance = 384400e3;        ///< m, from the planet's centre
 };
 
+/// A disc on the ground that glows evenly, and lights the air far around.
+struct City {
+    double distance = 0;  ///< of its centre from the point below the camera, along the ground, m
+    double azimuth = 0;   ///< rad
+    double radius = 10e3; ///< along the ground, m, above 0, at most a tenth of the planet's
+    double luminance = 1; ///< of its ground, cd m^-2
+    /// Shape of its spectral radiance, one value per wavelength; empty: that of the model's light pollution.
+    std::vector<double> spectrum{};
+
+    bool operator==(const City& other) const
+    {
+        return distance == other.distance && azimuth == other.azimuth && radius == other.radius && luminance == other.luminance &&
+               spectrum == other.spectrum;
+    }
+};
+
 struct SceneSettings {
     double altitude = 0; ///< of the camera, m, >= 0; may be above the atmosphere
     Sun sun{};
@@ -52,6 +68,7 @@ struct SceneSettings {
     bool limbDarkening = false;             ///< in an eclipse the Sun is darker towards its limb
     bool onTheFlySingleScattering = false; ///< of the textures source: single scattering gathered, not looked up
     double lightPollutionLuminance = 0;    ///< of the ground, cd m^-2
+    std::vector<City> cities{};            ///< any number; part of the layer lightPollution
     bool pseudoMirror = false;             ///< below the horizon a mirror image of the sky instead of the ground
     bool textureFiltering = true;          ///< false shows the texels of the sky tables
     /// Factors on the model's solar spectrum, one per wavelength; empty: as the model says.
