@@ -68,6 +68,9 @@ model::Manifest describe(const atmo::Description& description, const Options& op
     manifest.settings["quality"] = options.quality;
     manifest.settings["radiance"] = options.radiance ? "yes" : "no";
     manifest.settings["texture-save-precision"] = std::to_string(options.texturePrecisionBits);
+    // What a renderer needs to know of tables that it fills itself.
+    manifest.settings["eclipse.azimuths"] = std::to_string(description.eclipsedScatteringSize.relativeAzimuth);
+    manifest.settings["eclipse.views"] = std::to_string(description.eclipsedScatteringSize.viewZenithAngle);
     return manifest;
 }
 

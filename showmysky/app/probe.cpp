@@ -77,7 +77,7 @@ public:
         text += "\n";
         std::vector<double> values(columns.size());
         for (std::size_t i = 0; i < queries.views.size(); ++i) {
-            source->answer(queries.views[i], layers, values.data());
+            source->answer(queries.views[i], queries.moons.empty() ? nullptr : &queries.moons[i], layers, values.data());
             text += queries.lines[i];
             for (const double value : values) {
                 char number[32];

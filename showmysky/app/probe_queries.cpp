@@ -49,45 +49,61 @@ std::vector<Cell> cellsOf(const std::string& line)
     return cells;
 }
 
+/// A question as a line asks it.
+struct Query {
+    Photometer::View view;
+    Moon moon;
+};
+
 struct Field {
     const char* name;
     double low, high, unit;
     const char* range;
-    double Photometer::View::*target;
+    double& (*target)(Query&);
 };
 
 constexpr std::array<Field, 5> fields{{
-    {"altitude_m", 0, 1e15, 1, "0 or more", &Photometer::View::altitude},
-    {"sun_zenith_deg", 0, 180, degree, "0 to 180", &Photometer::View::sunZenithAngle},
-    {"sun_azimuth_deg", -1e6, 1e6, degree, "a finite angle", &Photometer::View::sunAzimuth},
-    {"view_zenith_deg", 0, 180, degree, "0 to 180", &Photometer::View::viewZenithAngle},
-    {"view_azimuth_deg", -1e6, 1e6, degree, "a finite angle", &Photometer::View::viewAzimuth},
+    {"altitude_m", 0, 1e15, 1, "0 or more", [](Query& q) -> double& { return q.view.altitude; }},
+    {"sun_zenith_deg", 0, 180, degree, "0 to 180", [](Query& q) -> double& { return q.view.sunZenithAngle; }},
+    {"sun_azimuth_deg", -1e6, 1e6, degree, "a finite angle", [](Query& q) -> double& { return q.view.sunAzimuth; }},
+    {"view_zenith_deg", 0, 180, degree, "0 to 180", [](Query& q) -> double& { return q.view.viewZenithAngle; }},
+    {"view_azimuth_deg", -1e6, 1e6, degree, "a finite angle", [](Query& q) -> double& { return q.view.viewAzimuth; }},
 }};
-constexpr std::array eclipseColumns{"moon_zenith_deg", "moon_azimuth_deg", "earth_moon_distance_m"};
+constexpr std::array<Field, 3> moonFields{{
+    {"moon_zenith_deg", 0, 180, degree, "0 to 180", [](Query& q) -> double& { return q.moon.zenithAngle; }},
+    {"moon_azimuth_deg", -1e6, 1e6, degree, "a finite angle", [](Query& q) -> double& { return q.moon.azimuth; }},
+    {"earth_moon_distance_m", 1, 1e32, 1, "a length above 0", [](Query& q) -> double& { return q.moon.distance; }},
+}};
 
-std::array<std::size_t, fields.size()> findColumns(const std::vector<Cell>& header, const std::string& name)
+/// Where a field stands in the lines.
+struct Column {
+    const Field* field;
+    std::size_t index;
+};
+
+std::vector<Column> findColumns(const std::vector<Cell>& header, const std::string& name)
 {
     std::vector<std::string> names;
     for (const auto& cell : header)
         names.push_back(cell.text);
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        const std::string place = name + ":1:" + std::to_string(header[i].column) + ": ";
-        if (std::find(eclipseColumns.begin(), eclipseColumns.end(), names[i]) != eclipseColumns.end())
-            throw sky::UsageError(place + "the column `" + names[i] +
-                                  "` asks for an eclipse, and this version computes none. Leave the Moon's columns out.");
+    for (std::size_t i = 0; i < names.size(); ++i)
         if (std::count(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]))
-            throw sky::UsageError(place + "the column `" + names[i] + "` is there twice.");
-    }
-    std::array<std::size_t, fields.size()> result{};
-    for (std::size_t f = 0; f < fields.size(); ++f) {
-        const auto found = std::find(names.begin(), names.end(), fields[f].name);
+            throw sky::UsageError(name + ":1:" + std::to_string(header[i].column) + ": the column `" + names[i] +
+                                  "` is there twice.");
+    std::vector<Column> result;
+    const auto find = [&](const Field& field, const std::string& expected) {
+        const auto found = std::find(names.begin(), names.end(), field.name);
         if (found == names.end())
-            throw sky::UsageError(name + ":1:1: the column `" + fields[f].name +
-                                  "` is missing; expected altitude_m, sun_zenith_deg, sun_azimuth_deg, view_zenith_deg and "
-                                  "view_azimuth_deg." +
-                                  sky::suggestion(fields[f].name, names));
-        result[f] = static_cast<std::size_t>(found - names.begin());
-    }
+            throw sky::UsageError(name + ":1:1: the column `" + field.name + "` is missing; expected " + expected + "." +
+                                  sky::suggestion(field.name, names));
+        result.push_back({&field, static_cast<std::size_t>(found - names.begin())});
+    };
+    for (const auto& field : fields)
+        find(field, "altitude_m, sun_zenith_deg, sun_azimuth_deg, view_zenith_deg and view_azimuth_deg");
+    const auto given = [&](const Field& field) { return std::find(names.begin(), names.end(), field.name) != names.end(); };
+    if (std::any_of(moonFields.begin(), moonFields.end(), given))
+        for (const auto& field : moonFields)
+            find(field, "all of moon_zenith_deg, moon_azimuth_deg and earth_moon_distance_m for an eclipse");
     return result;
 }
 
@@ -137,21 +153,23 @@ ProbeQueries readQueries(std::istream& stream, const std::string& name)
                 queries.complaints.push_back(name + ":" + std::to_string(number) + ":" + std::to_string(column) + ": " + what);
         };
         const auto cells = cellsOf(line);
-        Photometer::View view;
+        Query query;
         if (cells.size() != header.size()) {
             complain(cells.size() > header.size() ? cells[header.size()].column : cells.back().column,
                      "the line has " + std::to_string(cells.size()) + " cells; the header has " + std::to_string(header.size()) + ".");
             continue;
         }
-        for (std::size_t f = 0; f < fields.size(); ++f) {
+        for (const auto& [field, index] : columns) {
             double value = 0;
-            if (parse(cells[columns[f]], fields[f], value, problem))
-                view.*fields[f].target = value * fields[f].unit;
+            if (parse(cells[index], *field, value, problem))
+                field->target(query) = value * field->unit;
             else
-                complain(cells[columns[f]].column, problem);
+                complain(cells[index].column, problem);
         }
         queries.lines.push_back(line);
-        queries.views.push_back(view);
+        queries.views.push_back(query.view);
+        if (columns.size() > fields.size())
+            queries.moons.push_back(query.moon);
     }
     return queries;
 }

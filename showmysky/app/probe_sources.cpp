@@ -32,9 +32,12 @@ class MomentSource : public ProbeSource
 public:
     MomentSource(const std::string& directory, Photometer::Method method) : photometer_(directory, method) {}
     std::vector<std::string> columns() const override { return spectralColumns(photometer_.wavelengthsNm()); }
-    void answer(const Photometer::View& view, unsigned layers, double* values) override
+    void answer(const Photometer::View& view, const Moon* moon, unsigned layers, double* values) override
     {
-        photometer_.radiance(view, layers, values);
+        if (moon)
+            photometer_.eclipsedRadiance(&view, moon, 1, layers, values);
+        else
+            photometer_.radiance(view, layers, values);
     }
 
 private:
@@ -65,8 +68,10 @@ public:
         return spectral_ ? spectralColumns(medium_.wavelengthsNm) : std::vector<std::string>{"X", "Y", "Z", "scotopic"};
     }
 
-    void answer(const Photometer::View& view, unsigned layers, double* values) override
+    void answer(const Photometer::View& view, const Moon* moon, unsigned layers, double* values) override
     {
+        if (moon)
+            throw sky::UsageError("The textures hold no eclipses; leave the Moon's columns out, or use --source moments.");
         if (view.altitude > planet_.topOfAtmosphere)
             throw sky::UsageError("The textures end at the top of the atmosphere, " + std::to_string(planet_.topOfAtmosphere) +
                                   " m; use --source moments for views from above.");

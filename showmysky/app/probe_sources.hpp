@@ -16,7 +16,8 @@ public:
     /// Names of what `answer` gives: "L_391.333nm", ... or "X", "Y", "Z", "scotopic".
     virtual std::vector<std::string> columns() const = 0;
     /// [columns]
-    virtual void answer(const Photometer::View& view, unsigned layers, double* values) = 0;
+    ///   moon  of an eclipse, or null
+    virtual void answer(const Photometer::View& view, const Moon* moon, unsigned layers, double* values) = 0;
 };
 
 /// The moments: fast, or by the double-precision twin.

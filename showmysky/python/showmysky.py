@@ -64,6 +64,8 @@ def _load():
         "wavelengths": [handle, array],
         "solar_irradiance": [handle, array],
         "radiance": [handle, array, ctypes.c_size_t, ctypes.c_uint, array],
+        "eclipsed_radiance": [handle, array, array, ctypes.c_size_t, ctypes.c_uint, array],
+        "obscuration": [handle, array, array, array],
         "luminance": [handle, array, ctypes.c_size_t, ctypes.c_uint, array],
         "colour": [handle, array, array],
         "transmittance": [handle, real, real, array],
@@ -116,6 +118,28 @@ class Photometer:
     def radiance(self, altitude, sun_zenith, view_zenith, azimuth=0.0, layers=WHOLE_SKY):
         """Spectral radiance, W m^-2 sr^-1 nm^-1: [..., wavelength]."""
         return self._views("radiance", self._count, altitude, sun_zenith, view_zenith, azimuth, layers)
+
+    def eclipsed_radiance(
+        self, altitude, sun_zenith, view_zenith, azimuth, moon_zenith, moon_azimuth, moon_distance, layers=WHOLE_SKY
+    ):
+        """The same while the Moon hides a part of the Sun; its azimuth, like the view's, minus that of the Sun."""
+        arrays = np.broadcast_arrays(
+            altitude, sun_zenith, 0.0, view_zenith, azimuth, moon_azimuth, moon_zenith, moon_distance
+        )
+        views = np.ascontiguousarray(np.stack(arrays[:5], axis=-1), dtype=float)
+        moons = np.ascontiguousarray(np.stack(arrays[5:], axis=-1), dtype=float)
+        result = np.empty(views.shape[:-1] + (self._count,))
+        function = _library.showmysky_photometer_eclipsed_radiance
+        _check(function(self._handle, _pointer(views), _pointer(moons), views.size // 5, layers, _pointer(result)))
+        return result
+
+    def obscuration(self, altitude, sun_zenith, moon_zenith, moon_azimuth, moon_distance):
+        """Share of the Sun's disc that the Moon hides at the camera, 0..1."""
+        view = np.array([altitude, sun_zenith, 0.0, 0.0, 0.0])
+        moon = np.array([moon_azimuth, moon_zenith, moon_distance], dtype=float)
+        result = np.empty(1)
+        _check(_library.showmysky_photometer_obscuration(self._handle, _pointer(view), _pointer(moon), _pointer(result)))
+        return float(result[0])
 
     def luminance(self, altitude, sun_zenith, view_zenith, azimuth=0.0, layers=WHOLE_SKY):
         """CIE 1931 X, Y, Z and scotopic luminance, cd m^-2: [..., 4]."""

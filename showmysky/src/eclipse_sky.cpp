@@ -1,8 +1,7 @@
 #include "eclipse_sky.hpp"
 
-#include "air_entry.hpp"
 #include "base/parallel.hpp"
-#include "eclipse/frame.hpp"
+#include "eclipse_view.hpp"
 #include "physics/table_axes.hpp"
 #include <algorithm>
 #include <cmath>
@@ -37,13 +36,6 @@ Texel sampled(const ViewTable& table, double coordinate, int half, double azimut
     return result;
 }
 
-bool same(const physics::EclipseBodies& a, const physics::EclipseBodies& b)
-{
-    return a.cameraAltitude == b.cameraAltitude && a.sunDirection == b.sunDirection &&
-           a.moonDirection == b.moonDirection && a.moonDistance == b.moonDistance &&
-           a.sunAngularRadius == b.sunAngularRadius;
-}
-
 bool same(const eclipse::Orders& a, const eclipse::Orders& b)
 {
     return a.orders == b.orders && a.all == b.all && a.tolerance == b.tolerance;
@@ -59,7 +51,7 @@ EclipseSky::EclipseSky(const Atmosphere& atmosphere, const physics::SunTable& su
 
 void EclipseSky::set(const EclipseScene& scene)
 {
-    if (scene_ && same(scene_->bodies, scene.bodies) && same(scene_->orders, scene.orders) &&
+    if (scene_ && samePlaces(scene_->bodies, scene.bodies) && same(scene_->orders, scene.orders) &&
         scene_->limbDarkening == scene.limbDarkening && scene_->field == scene.field &&
         scene_->weights == scene.weights)
         return;
@@ -108,23 +100,13 @@ double EclipseSky::fractionDone() const
     return ready_ ? 1 : !light_ ? 0 : 0.2 + (field_ ? 0.7 * field_->fractionDone() : 0);
 }
 
-eclipse::ViewRay EclipseSky::viewRay(const double mu, const bool ground) const
-{
-    const auto& planet = atmosphere_.planet();
-    const auto entry = enterAir(planet, scene_->bodies.cameraAltitude, mu);
-    if (!entry) // misses the air: nothing is seen there, so any ray will do
-        return {planet.topOfAtmosphere, 1, false, 0};
-    const double before =
-        entry->outerShift > 0 ? eclipse::groundDistance(planet.radius, entry->outerScale, entry->outerShift, mu) : 0;
-    return {entry->altitude, entry->mu, ground, before};
-}
-
 std::vector<eclipse::ViewRay> EclipseSky::viewRays() const
 {
     std::vector<eclipse::ViewRay> rays;
     const auto sines = viewSines(atmosphere_.planet(), scene_->bodies.cameraAltitude, ratioHalfViews);
     for (std::size_t i = 0; i < sines.size(); ++i)
-        rays.push_back(viewRay(sines[i], i >= ratioHalfViews));
+        rays.push_back(
+            eclipseViewRay(atmosphere_.planet(), scene_->bodies.cameraAltitude, sines[i], i >= ratioHalfViews));
     return rays;
 }
 
@@ -283,7 +265,9 @@ EclipseSky::Ratios EclipseSky::ratios(const std::array<double, 3>& direction, co
     Ratios result{std::vector<double>(wavelengths, 1.), std::vector<double>(wavelengths, 1.)};
     if (!field_)
         return result;
-    const auto light = field_->view({viewRay(direction[2], ground)}, {std::atan2(direction[1], direction[0])});
+    const auto light =
+        field_->view({eclipseViewRay(atmosphere_.planet(), scene_->bodies.cameraAltitude, direction[2], ground)},
+                     {std::atan2(direction[1], direction[0])});
     for (int w = 0; w < light.wavelengths; ++w) {
         result.sky[static_cast<std::size_t>(w)] = static_cast<double>(light.skyRatio(0, 0, w));
         result.ground[static_cast<std::size_t>(w)] = static_cast<double>(light.groundRatio(0, 0, w));

@@ -51,11 +51,9 @@ public:
         std::vector<double> sky, ground;
     };
     Ratios ratios(const std::array<double, 3>& direction, bool ground) const;
-    const sky::eclipse::ScatteredField* field() const { return field_ ? &*field_ : nullptr; }
 
 private:
     std::vector<sky::eclipse::ViewRay> viewRays() const;
-    sky::eclipse::ViewRay viewRay(double mu, bool ground) const;
     void tabulateRatios();
     Texel ratioAt(const std::vector<Texel>& table, double coordinate, int half, double relative) const;
 

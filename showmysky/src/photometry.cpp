@@ -1,5 +1,6 @@
 #include "showmysky/photometry.hpp"
 #include "glow.hpp"
+#include "photometry_eclipse.hpp"
 #include "photometry_gather.hpp"
 #include "photometry_model.hpp"
 #include "physics/quadrature.hpp"
@@ -27,6 +28,15 @@ void checkAltitude(double altitude) { checkRange("The altitude", altitude, 0, 1e
 void checkZenithAngle(const char* name, double angle)
 {
     checkRange(name, angle, 0, pi * (1 + 1e-12), "0 (the zenith) to pi (the nadir)");
+}
+
+void checkView(const Photometer::View& view)
+{
+    checkAltitude(view.altitude);
+    checkZenithAngle("The Sun's zenith angle", view.sunZenithAngle);
+    checkZenithAngle("The view's zenith angle", view.viewZenithAngle);
+    if (!std::isfinite(view.viewAzimuth - view.sunAzimuth))
+        throw Error(ErrorKind::settings, "An azimuth is not a finite number.");
 }
 
 /// A ray that begins inside the atmosphere.
@@ -84,6 +94,7 @@ struct Photometer::Inside {
     void scattered(const RayStart& start, double nu, const FastGather::Parts& parts, Scratch& scratch, double* result) const;
     void addGround(const RayStart& start, double nu, Scratch& scratch, double* result) const;
     void radiance(const View& view, unsigned layers, Scratch& scratch, double* result) const;
+    void eclipsed(const View& view, const Moon& moon, unsigned layers, Scratch& scratch, double* result) const;
     void transmittance(const physics::Optics& optics, double altitude, double mu, Scratch& scratch, double* result) const;
     void diffuse(double altitude, double muSun, Scratch& scratch, double* result) const;
 
@@ -113,6 +124,7 @@ struct Photometer::Inside {
 
     PhotometryModel sky;
     std::optional<Glow> glow; ///< if the model has it
+    EclipsePhotometry eclipse{sky};
     Method method;
     FastGather gather;
     mutable std::mutex mutex;
@@ -177,14 +189,24 @@ void Photometer::Inside::addGround(const RayStart& start, double nu, Scratch& sc
         result[w] += sky.medium.groundAlbedo[w] / pi * transmittance[w] * scratch.light[w];
 }
 
+void Photometer::Inside::eclipsed(const View& view, const Moon& moon, const unsigned layers, Scratch& scratch,
+                                  double* const result) const
+{
+    checkView(view);
+    checkZenithAngle("The Moon's zenith angle", moon.zenithAngle);
+    checkRange("The Moon's azimuth", moon.azimuth, -1e6, 1e6, "a finite angle");
+    eclipse.radiance(view, moon, layers, result);
+    if (layers & lightPollution) {
+        glow->radiance(view.altitude, std::cos(view.viewZenithAngle), scratch.light.data());
+        for (int w = 0; w < wavelengths(); ++w)
+            result[w] += scratch.light[w];
+    }
+}
+
 void Photometer::Inside::radiance(const View& view, const unsigned layers, Scratch& scratch, double* const result) const
 {
-    checkAltitude(view.altitude);
-    checkZenithAngle("The Sun's zenith angle", view.sunZenithAngle);
-    checkZenithAngle("The view's zenith angle", view.viewZenithAngle);
+    checkView(view);
     const double azimuth = view.viewAzimuth - view.sunAzimuth;
-    if (!std::isfinite(azimuth))
-        throw Error(ErrorKind::settings, "An azimuth is not a finite number.");
     RayStart start{view.altitude, std::cos(view.viewZenithAngle), std::cos(view.sunZenithAngle)};
     const double nu = std::clamp(start.mu * start.muSun + std::sin(view.viewZenithAngle) * std::sin(view.sunZenithAngle) * std::cos(azimuth),
                                  -1., 1.);
@@ -278,6 +300,27 @@ void Photometer::radianceMany(const View* const views, const std::size_t count, 
         const int wavelengths = inside_->wavelengths();
         for (std::size_t i = 0; i < count; ++i)
             inside_->radiance(views[i], layers, *scratch, spectra + i * wavelengths);
+    });
+}
+
+void Photometer::eclipsedRadiance(const View* const views, const Moon* const moons, const std::size_t count, const unsigned layers,
+                                  double* const spectra) const
+{
+    translated([&] {
+        inside_->checkLayers(layers);
+        Inside::Borrowed scratch(*inside_);
+        const int wavelengths = inside_->wavelengths();
+        for (std::size_t i = 0; i < count; ++i)
+            inside_->eclipsed(views[i], moons[i], layers, *scratch, spectra + i * wavelengths);
+    });
+}
+
+double Photometer::obscuration(const View& view, const Moon& moon) const
+{
+    return translated([&] {
+        checkView(view);
+        checkZenithAngle("The Moon's zenith angle", moon.zenithAngle);
+        return inside_->eclipse.obscuration(view, moon);
     });
 }
 

@@ -127,6 +127,26 @@ int showmysky_photometer_radiance(const showmysky_photometer* photometer, const 
     });
 }
 
+int showmysky_photometer_eclipsed_radiance(const showmysky_photometer* p, const showmysky_view* views, const showmysky_moon* moons,
+                                           size_t count, unsigned layers, double* spectra)
+{
+    return answer(p, (views && moons && spectra) || count == 0, [&](const Photometer& photometer) {
+        const std::size_t wavelengths = photometer.wavelengthsNm().size();
+        for (std::size_t i = 0; i < count; ++i) {
+            const Photometer::View view = viewOf(views[i]);
+            const showmysky::Moon moon{moons[i].azimuth, moons[i].zenith_angle, moons[i].distance};
+            photometer.eclipsedRadiance(&view, &moon, 1, layers, spectra + i * wavelengths);
+        }
+    });
+}
+
+int showmysky_photometer_obscuration(const showmysky_photometer* p, const showmysky_view* view, const showmysky_moon* moon, double* share)
+{
+    return answer(p, view && moon && share, [&](const Photometer& photometer) {
+        *share = photometer.obscuration(viewOf(*view), {moon->azimuth, moon->zenith_angle, moon->distance});
+    });
+}
+
 int showmysky_photometer_luminance(const showmysky_photometer* photometer, const showmysky_view* views, size_t count, unsigned layers,
                                    double* xyz)
 {

@@ -6,6 +6,7 @@
 #include "physics/sky.hpp"
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace showmysky {
 
@@ -20,6 +21,8 @@ constexpr int sunAltitudes = 64, sunElevations = 96;
 constexpr int raysPerStep = 16;
 /// Along a ray through the shadow, for single directions.
 constexpr int eclipseNodes = 400;
+/// Whatever a model asks for, its tables stay within what textures can hold.
+constexpr int mostEclipseSize = 256;
 
 bool same(const Layers& a, const Layers& b)
 {
@@ -288,8 +291,16 @@ Progress Scene::eclipseStep()
     eclipse_->set(eclipseScene());
     if (!eclipse_->step())
         return {false, 0.85 + 0.15 * eclipse_->fractionDone(), "Following the shadow"};
+    // The description asks for sizes of the half turn; no fewer than these serve.
+    const auto asked = [&](const char* name) {
+        const auto& stored = atmosphere_->model.manifest().settings;
+        const auto found = stored.find(name);
+        return found == stored.end() ? 0 : std::clamp(std::atoi(found->second.c_str()), 0, mostEclipseSize);
+    };
     const int finer = settings_.eclipseFine ? 4 : 1;
-    view_ = eclipse_->dimmed(ordinary_, finer * eclipseHalfViews, finer * (eclipseAzimuths - 1) + 1);
+    const int halfViews = std::max(eclipseHalfViews, (asked("eclipse.views") + 1) / 2);
+    const int halfTurn = std::max((eclipseAzimuths - 1) / 2, asked("eclipse.azimuths") - 1);
+    view_ = eclipse_->dimmed(ordinary_, finer * halfViews, finer * 2 * halfTurn + 1);
     ready_ = true;
     ++version_;
     return {true, 1, {}};

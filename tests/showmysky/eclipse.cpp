@@ -1,6 +1,8 @@
 // The renderer in eclipses.
 
 #include "shadow_light.hpp"
+#include "showmysky/photometry.h"
+#include "showmysky/photometry.hpp"
 #include "sky_axes.hpp"
 #include "sky_for_tests.hpp"
 #include <catch2/catch.hpp>
@@ -284,4 +286,42 @@ TEST_CASE("eclipse: what hosts are told of Sun and Moon", "[gl]")
     CHECK(sky.eclipseState(eclipse(50, 3)).phase == Phase::none);
     CHECK(sky.eclipseState(eclipse(50, 3)).obscuration == 0);
     CHECK_THROWS_AS(sky.eclipseState(eclipse(50, 0, 6400e3)), Error);
+}
+
+TEST_CASE("eclipse: the photometer answers as the renderer's pixel does", "[gl]")
+{
+    const sky::gl::HeadlessContext context(desktop());
+    Sky sky = loadedSky(context);
+    const Photometer photometer(SHOWMYSKY_TEST_MODEL);
+    auto settings = eclipse(50, 0.05);
+    settings.moon.azimuth += 0.03 * degree;
+    sky.setSettings(settings);
+    std::vector<double> answer(photometer.wavelengthsNm().size());
+    for (const double zenithAngle : {0.4, 1.4}) {
+        const Photometer::View view{0, settings.sun.zenithAngle, settings.sun.azimuth, zenithAngle, 2};
+        photometer.eclipsedRadiance(&view, &settings.moon, 1, Photometer::wholeSky, answer.data());
+        const auto expected = sky.spectralRadiance(directionOf(2, zenithAngle));
+        for (std::size_t w = 0; w < answer.size(); ++w)
+            CHECK(answer[w] == Approx(expected[w]).epsilon(5e-3)); // tables of sunlight of two sizes
+        CHECK(photometer.obscuration(view, settings.moon) ==
+              Approx(sky.eclipseState(settings).obscuration).epsilon(1e-12));
+    }
+    // The same in C.
+    showmysky_photometer* plain = nullptr;
+    REQUIRE(showmysky_photometer_open(SHOWMYSKY_TEST_MODEL, 0, &plain) == SHOWMYSKY_PHOTOMETRY_OK);
+    const showmysky_view view{0, settings.sun.zenithAngle, settings.sun.azimuth, 1.4, 2};
+    showmysky_moon place{settings.moon.azimuth, settings.moon.zenithAngle, settings.moon.distance};
+    std::vector<double> inC(answer.size());
+    double share = 0;
+    CHECK(showmysky_photometer_eclipsed_radiance(plain, &view, &place, 1, SHOWMYSKY_WHOLE_SKY, inC.data()) ==
+          SHOWMYSKY_PHOTOMETRY_OK);
+    CHECK(inC == answer);
+    CHECK(showmysky_photometer_obscuration(plain, &view, &place, &share) == SHOWMYSKY_PHOTOMETRY_OK);
+    CHECK(share == Approx(sky.eclipseState(settings).obscuration).epsilon(1e-12));
+    place.distance = 6400e3;
+    CHECK(showmysky_photometer_obscuration(plain, &view, &place, &share) == SHOWMYSKY_PHOTOMETRY_BAD_ARGUMENT);
+    showmysky_photometer_close(plain);
+    auto moon = settings.moon;
+    moon.distance = 6400e3;
+    CHECK_THROWS_AS(photometer.obscuration({0, 1, 0, 1, 0}, moon), Error);
 }

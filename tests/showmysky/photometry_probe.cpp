@@ -100,7 +100,10 @@ TEST_CASE("probe: bad headers and options are refused with a sentence")
     refused(probe(""), "is empty");
     refused(probe("altitude,sun_zenith_deg,sun_azimuth_deg,view_zenith_deg,view_azimuth_deg\n"), "Did you mean `altitude`?");
     refused(probe("altitude_m," + std::string(header)), "is there twice");
-    refused(probe("moon_zenith_deg," + std::string(header)), "eclipse");
+    refused(probe("moon_zenith_deg," + std::string(header)), "all of moon_zenith_deg, moon_azimuth_deg and earth_moon_distance_m");
+    refused(probe("moon_zenith_deg,moon_azimuth_deg,earth_moon_distance_m," + std::string(header) + "30,0,384400e3,0,30,0,45,90\n",
+                  {"--source", "textures"}),
+            "hold no eclipses");
     refused(probe(std::string(header) + "0,30,0,45,90\n", {"--layers", "light-pollution"}), "no light pollution");
     refused(probe(header, {"--layers", "singel"}), "Did you mean `single`?");
     refused(probe(header, {"--source", "guess"}), "moments, textures or cpu");

@@ -57,6 +57,16 @@ SHOWMYSKY_API int showmysky_photometer_solar_irradiance(const showmysky_photomet
 /* [count][wavelengths], W m^-2 sr^-1 nm^-1. `layers` is a sum of showmysky_photometry_layer. */
 SHOWMYSKY_API int showmysky_photometer_radiance(const showmysky_photometer* photometer, const showmysky_view* views, size_t count,
                                                 unsigned layers, double* spectra);
+/* The Moon of a view, laid out as three doubles: rad, rad, and m from the planet's centre. */
+typedef struct showmysky_moon {
+    double azimuth, zenith_angle, distance;
+} showmysky_moon;
+/* The same in an eclipse: moons[i] stands for views[i]. */
+SHOWMYSKY_API int showmysky_photometer_eclipsed_radiance(const showmysky_photometer* photometer, const showmysky_view* views,
+                                                         const showmysky_moon* moons, size_t count, unsigned layers, double* spectra);
+/* Share of the Sun's disc that the Moon hides at the camera, 0..1. */
+SHOWMYSKY_API int showmysky_photometer_obscuration(const showmysky_photometer* photometer, const showmysky_view* view,
+                                                   const showmysky_moon* moon, double* share);
 /* [count][4]: X, Y, Z, scotopic, cd m^-2. */
 SHOWMYSKY_API int showmysky_photometer_luminance(const showmysky_photometer* photometer, const showmysky_view* views, size_t count,
                                                  unsigned layers, double* xyz_scotopic);

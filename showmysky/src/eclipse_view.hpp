@@ -1,0 +1,31 @@
+#pragma once
+// What every user of an eclipse's field asks: its lines of sight, and whether it is still the right one.
+
+#include "air_entry.hpp"
+#include "eclipse/field.hpp"
+#include "eclipse/frame.hpp"
+
+namespace showmysky {
+
+/// A line of sight of a camera, which may stand above the air. Where it misses the air there is no light, and any ray
+/// will do.
+inline sky::eclipse::ViewRay eclipseViewRay(const sky::physics::Planet& planet, double altitude, double mu, bool ground)
+{
+    const auto entry = enterAir(planet, altitude, mu);
+    if (!entry)
+        return {planet.topOfAtmosphere, 1, false, 0};
+    const double before = entry->outerShift > 0
+                              ? sky::eclipse::groundDistance(planet.radius, entry->outerScale, entry->outerShift, mu)
+                              : 0;
+    return {entry->altitude, entry->mu, ground, before};
+}
+
+/// True if camera, Sun and Moon of one model stand the same.
+inline bool samePlaces(const sky::physics::EclipseBodies& a, const sky::physics::EclipseBodies& b)
+{
+    return a.cameraAltitude == b.cameraAltitude && a.sunDirection == b.sunDirection &&
+           a.moonDirection == b.moonDirection && a.moonDistance == b.moonDistance &&
+           a.sunAngularRadius == b.sunAngularRadius;
+}
+
+} // namespace showmysky
