@@ -154,7 +154,8 @@ public:
     {
         result_.origins.push_back({"<defines of " + std::string(path) + ">", nullptr});
         int line = 0;
-        add("#version " + version, 0, ++line);
+        if (!version.empty())
+            add("#version " + version, 0, ++line);
         if (version.ends_with("es"))
             for (const char* type : {"float", "int", "sampler2D", "sampler3D", "sampler2DArray"})
                 add(std::string("precision highp ") + type + ";", 0, ++line);

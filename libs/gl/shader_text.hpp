@@ -50,7 +50,8 @@ struct ShaderText {
 ///
 /// `#include "file"` at the start of a line is replaced by the file, once per shader: later includes of the same file expand
 /// to nothing. It is expanded even inside `#if`, so keep it out of those. No other text is changed.
-///   version   "430 core", "330 core", "300 es"; for ES, `precision highp` lines follow for floats, integers and samplers
+///   version   "430 core", "330 core", "300 es"; for ES, `precision highp` lines follow for floats, integers and samplers; empty: none of
+///             them, for text that others put into their shaders
 ///   snippets  must outlive the result
 ///   throws    GlError   a missing file or snippet, or an include cycle through the entry file
 ///             AtmoError a block of a description that could disturb the text around it: an open comment or bracket,

@@ -266,10 +266,14 @@ void StateGuard::restoreBindings() const
     for (std::size_t i = 0; i < plainBufferTargets.size(); ++i)
         api_->BindBuffer(plainBufferTargets[i][0], unsignedName(plainBuffers_[i]));
 
+    // A texture of ours that the host had bound may have made room for another meanwhile: its unit stays empty.
+    const auto bindAgain = [&](GLenum target, GLint texture) {
+        api_->BindTexture(target, api_->IsTexture(unsignedName(texture)) ? unsignedName(texture) : 0);
+    };
     for (std::size_t i = 0; i < textureUnits_.size(); ++i) {
         api_->ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(i));
-        api_->BindTexture(GL_TEXTURE_2D, unsignedName(textureUnits_[i].texture2d));
-        api_->BindTexture(GL_TEXTURE_3D, unsignedName(textureUnits_[i].texture3d));
+        bindAgain(GL_TEXTURE_2D, textureUnits_[i].texture2d);
+        bindAgain(GL_TEXTURE_3D, textureUnits_[i].texture3d);
         api_->BindSampler(static_cast<GLuint>(i), unsignedName(textureUnits_[i].sampler));
     }
     api_->ActiveTexture(unsignedName(activeTexture_));

@@ -113,9 +113,11 @@ SeenColumns RayTracer::seen(const double altitude, const double mu, const bool h
     walk(altitude, mu, hits);
     const int wavelengths = optics_.wavelengths, species = optics_.species;
     const int cells = static_cast<int>(bounds_.size()) - 1, scatterers = static_cast<int>(optics_.scatterers.size());
-    SeenColumns result{bounds_, std::vector<double>(size_t(cells + 1) * scatterers * wavelengths, 0.), {}};
+    SeenColumns result{bounds_, std::vector<double>(size_t(cells + 1) * scatterers * wavelengths, 0.), {}, {}};
     std::vector<double> transmittance(wavelengths, 1.);
-    for (int c = 0; c < cells; ++c)
+    result.transmittance = transmittance;
+    result.transmittance.reserve(size_t(cells + 1) * wavelengths);
+    for (int c = 0; c < cells; ++c) {
         for (int w = 0; w < wavelengths; ++w) {
             double tau = 0;
             for (int s = 0; s < species; ++s)
@@ -129,6 +131,8 @@ SeenColumns RayTracer::seen(const double altitude, const double mu, const bool h
                     result.seen[at] + columns_[c * species + s] * optics_.scattering[s * wavelengths + w] * mean;
             }
         }
+        result.transmittance.insert(result.transmittance.end(), transmittance.begin(), transmittance.end());
+    }
     result.groundTransmittance.assign(wavelengths, 0.);
     if (hits)
         result.groundTransmittance = transmittance;

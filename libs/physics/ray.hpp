@@ -31,6 +31,7 @@ struct RayNodes {
 struct SeenColumns {
     std::vector<double> distances;           ///< [cells + 1], m, from 0 to the ground or to space
     std::vector<double> seen;                ///< [cells + 1][scatterer][wavelength]: integral of beta_sca T from the start
+    std::vector<double> transmittance;       ///< [cells + 1][wavelength], from the start
     std::vector<double> groundTransmittance; ///< [wavelength], 0 if the ray misses the ground
 };
 
