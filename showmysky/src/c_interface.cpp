@@ -12,6 +12,7 @@ static_assert(SHOWMYSKY_ABI == SHOWMYSKY_ABI_VERSION, "the library's SONAME and 
 
 struct showmysky_sky {
     Sky sky;
+    std::string shaderFunctions{};
 };
 
 namespace {
@@ -210,4 +211,14 @@ int showmysky_pixel_spectral_radiance(showmysky_sky* sky, int x, int y, double* 
         const auto values = sky->sky.pixelSpectralRadiance(x, y);
         std::copy_n(values.begin(), std::min(capacity, values.size()), result);
     });
+}
+
+const char* showmysky_shader_functions(showmysky_sky* sky)
+{
+    return guarded([&] { sky->shaderFunctions = sky->sky.shaderFunctions(); }) ? sky->shaderFunctions.c_str() : nullptr;
+}
+
+int showmysky_bind_shader_functions(showmysky_sky* sky, unsigned program, unsigned first_texture_unit)
+{
+    return guarded([&] { sky->sky.bindShaderFunctions(program, first_texture_unit); });
 }

@@ -19,9 +19,8 @@ constexpr double pi = 3.14159265358979323846;
 
 gl::Program buildProgram(const gl::Api& api, int scatterers, const Options& options)
 {
-    std::vector<gl::Define> defines{{"SCATTERERS", std::to_string(scatterers)},
-                                    {"PHASE_ROWS", std::to_string(std::max(1, (scatterers + 3) / 4))},
-                                    {"SUN_COLOURS", std::to_string(sunColourCount)}};
+    std::vector<gl::Define> defines = Painter::lightDefines(scatterers);
+    defines.push_back({"SUN_COLOURS", std::to_string(sunColourCount)});
     const bool host = !options.viewDirectionFunction.empty();
     const std::string builtIn = "render/projections.glsl";
     const gl::Snippet projection{"viewDirection",
@@ -58,6 +57,12 @@ std::size_t bytesOf(const gl::Texture& texture)
 
 } // namespace
 
+std::vector<gl::Define> Painter::lightDefines(int scatterers)
+{
+    return {{"SCATTERERS", std::to_string(scatterers)},
+            {"PHASE_ROWS", std::to_string(std::max(1, (scatterers + 3) / 4))}};
+}
+
 Painter::Painter(const gl::Api& api, int scatterers, const std::vector<Texel>& phases, const Options& options)
     : api_(api), half_(options.halfFloats || api.isEs()), hostProjection_(!options.viewDirectionFunction.empty()),
       scatterers_(scatterers), program_(buildProgram(api, scatterers, options)), triangle_(api, "sky triangle"),
@@ -68,7 +73,7 @@ Painter::Painter(const gl::Api& api, int scatterers, const std::vector<Texel>& p
 {
     phases_.upload(flat(phases));
     directionTarget_.attach(0, direction_);
-    program_.set("phaseWidth", static_cast<float>(phaseWidth));
+    light_["phaseWidth"] = static_cast<float>(phaseWidth);
     program_.set("largest", half_ ? 65504.f : 3e38f);
     gl::checkErrors(api_, "preparing to draw the sky");
 }
@@ -99,20 +104,29 @@ void Painter::setSky(const SkyView& view, const SceneGeometry& geometry)
     if (tables_.size().width != azimuths || tables_.size().height != rows)
         tables_ = gl::Texture2D(api_, "sky tables", formatOf(half_), azimuths, rows);
     tables_.upload(texels);
-    program_.set("tableSize", std::array<float, 2>{static_cast<float>(azimuths), static_cast<float>(halfViews)});
+    light_["tableSize"] = std::array<float, 2>{static_cast<float>(azimuths), static_cast<float>(halfViews)};
     setAxes(view, geometry);
     tables_.setFilter(geometry.filter ? gl::Filter::linear : gl::Filter::nearest);
-    program_.setVec4s("tableScales", scales);
-    program_.set("sunDirection", asFloats(geometry.sunDirection));
-    program_.set("horizon", static_cast<float>(geometry.horizon));
+    light_["tableScales"] = scales;
+    light_["sunDirection"] = asFloats(geometry.sunDirection);
+    light_["horizon"] = static_cast<float>(geometry.horizon);
     const auto inverseRange = [](double range) {
         return static_cast<float>(1 / std::asinh(range / sky::physics::horizonAngleScale));
     };
-    program_.set("inverseRanges", std::array<float, 2>{inverseRange(pi / 2 - geometry.horizon),
-                                                       inverseRange(pi / 2 + geometry.horizon)});
+    light_["inverseRanges"] = std::array<float, 2>{inverseRange(pi / 2 - geometry.horizon),
+                                                    inverseRange(pi / 2 + geometry.horizon)};
+    light_["mirror"] = geometry.mirror ? 1 : 0;
+    for (const auto& [name, value] : light_)
+        std::visit(
+            [&, &name = name](const auto& v) {
+                if constexpr (std::is_same_v<std::decay_t<decltype(v)>, std::vector<Texel>>)
+                    program_.setVec4s(name, v);
+                else
+                    program_.set(name, v);
+            },
+            value);
     program_.setVec4s("sunColours", geometry.sunColours);
     program_.set("sunRadius", static_cast<float>(geometry.sunRadius));
-    program_.set("mirror", geometry.mirror ? 1 : 0);
 }
 
 void Painter::setAxes(const SkyView& view, const SceneGeometry& geometry)
@@ -121,11 +135,11 @@ void Painter::setAxes(const SkyView& view, const SceneGeometry& geometry)
     const SkyAxes axes{geometry.horizon, view.eclipse, sunElevation};
     const auto focus = axes.focus(0);
     const auto columns = axes.azimuthFocus();
-    program_.set("wholeTurn", view.eclipse ? 1 : 0);
-    program_.set("viewFocus", std::array<float, 4>{static_cast<float>(focus.share), static_cast<float>(focus.sun),
-                                                   static_cast<float>(focus.offset), static_cast<float>(focus.scale)});
-    program_.set("azimuthFocus", std::array<float, 3>{static_cast<float>(columns[0]), static_cast<float>(columns[1]),
-                                                      static_cast<float>(columns[2])});
+    light_["wholeTurn"] = view.eclipse ? 1 : 0;
+    light_["viewFocus"] = std::array<float, 4>{static_cast<float>(focus.share), static_cast<float>(focus.sun),
+                                                static_cast<float>(focus.offset), static_cast<float>(focus.scale)};
+    light_["azimuthFocus"] = std::array<float, 3>{static_cast<float>(columns[0]), static_cast<float>(columns[1]),
+                                                  static_cast<float>(columns[2])};
     program_.set("moonDirection", asFloats(geometry.moonDirection));
     program_.set("moonRadius", static_cast<float>(geometry.eclipse ? geometry.moonRadius : 0));
     program_.set("limbExponents", geometry.limbExponents);

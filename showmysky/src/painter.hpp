@@ -6,6 +6,7 @@
 #include "gl/texture.hpp"
 #include "showmysky/sky.hpp"
 #include "sky_view.hpp"
+#include "uniforms.hpp"
 #include <optional>
 
 namespace showmysky {
@@ -47,6 +48,12 @@ public:
     int pictureHeight() const { return pictureHeight_; }
     int reduction() const { return reduction_; }
     unsigned program() const { return program_.name(); }
+    /// What the functions of shaders/render/sky_light.glsl read.
+    const Uniforms& lightUniforms() const { return light_; }
+    const sky::gl::Texture2D& skyTables() const { return tables_; }
+    const sky::gl::Texture2D& phases() const { return phases_; }
+    /// What these functions need defined.
+    static std::vector<sky::gl::Define> lightDefines(int scatterers);
     std::size_t textureBytes() const;
     int fetchesPerPixel() const;
 
@@ -58,6 +65,7 @@ private:
     bool half_, hostProjection_;
     int scatterers_;
     sky::gl::Program program_;
+    Uniforms light_;
     sky::gl::VertexArray triangle_;
     sky::gl::Texture2D phases_, tables_;
     sky::gl::Texture2D direction_;

@@ -19,6 +19,10 @@ constexpr double pi = 3.14159265358979323846;
 constexpr int sunAltitudes = 64, sunElevations = 96;
 /// Rays that a step of preparation follows.
 constexpr int raysPerStep = 16;
+/// Lines of aerial perspective that one follows: each costs more.
+constexpr int linesPerStep = 8;
+/// Heights on the disc at which the Sun's light is followed for its illuminance.
+constexpr int illuminanceSamples = 33;
 /// Along a ray through the shadow, for single directions.
 constexpr int eclipseNodes = 400;
 /// Whatever a model asks for, its tables stay within what textures can hold.
@@ -91,6 +95,8 @@ void Scene::followSunlight()
 {
     gather_.reset();
     eclipse_.reset();
+    aerial_.reset();
+    aerialSettings_.reset();
     ordinaryReady_ = false;
     tabulatedSunRadius_ = sunRadius();
     sun_ = std::make_unique<physics::SunTable>(atmosphere_->profile, atmosphere_->optics, tabulatedSunRadius_,
@@ -318,6 +324,45 @@ ViewTable Scene::glow() const
     return result;
 }
 
+ViewTable Scene::undimmedWhole() const
+{
+    if (settings_.eclipse == EclipseMode::off)
+        return view_.whole;
+    ViewTable result = resampled(ordinary_.view.whole, drawnHalfViews, drawnAzimuths);
+    for (const ViewTable* part : {&ordinary_.groundDirect, &ordinary_.groundDiffuse, &ordinary_.glow})
+        result = sum(result, resampled(*part, drawnHalfViews, drawnAzimuths));
+    return result;
+}
+
+bool Scene::aerialStep()
+{
+    if (!aerial_)
+        aerial_ = std::make_unique<Aerial>(*atmosphere_, *phases_, moments_ ? &*moments_ : nullptr, *sun_);
+    if (!aerialSettings_ || !sameTables(settings_, *aerialSettings_)) {
+        aerial_->set({settings_.altitude, std::cos(settings_.sun.zenithAngle), layersUsed(),
+                      atmosphere_->luminanceWeights(settings_.solarSpectrumFactors), undimmedWhole(),
+                      settings_.layers.lightPollution});
+        aerialSettings_ = settings_;
+    }
+    return aerial_->step(linesPerStep);
+}
+
+Illuminance Scene::illuminance() const
+{
+    const SceneGeometry scene = geometry();
+    const double elevation = pi / 2 - settings_.sun.zenithAngle;
+    Illuminance result;
+    addSunIlluminance(sunColours(illuminanceSamples), elevation, sunRadius(), scene.horizon, result);
+    if (scene.eclipse) {
+        const auto left = static_cast<float>(1 - eclipseState(settings_).obscuration);
+        for (Texel* light : {&result.sunHorizontal, &result.sunFacing})
+            for (float& value : *light)
+                value *= left;
+    }
+    result.skyHorizontal = skyIlluminance(view_, {scene.horizon, view_.eclipse, elevation}, *phases_);
+    return result;
+}
+
 SceneGeometry Scene::geometry() const
 {
     SceneGeometry result;
@@ -327,7 +372,8 @@ SceneGeometry Scene::geometry() const
     result.filter = settings_.textureFiltering;
     if (settings_.layers.solarDisc && settings_.layers.zeroOrder) {
         result.sunRadius = sunRadius();
-        result.sunColours = sunColours();
+        const auto colours = sunColours(sunColourCount);
+        std::copy(colours.begin(), colours.end(), result.sunColours.begin());
     }
     result.eclipse = settings_.eclipse == EclipseMode::on;
     if (result.eclipse) {
@@ -354,7 +400,7 @@ Texel Scene::limbExponents() const
     return result;
 }
 
-std::array<Texel, sunColourCount> Scene::sunColours() const
+std::vector<Texel> Scene::sunColours(int count) const
 {
     // Radiance of a uniform disc: irradiance over its solid angle, seen through the air without scaling of sharp peaks.
     const auto& medium = atmosphere_->medium;
@@ -364,9 +410,9 @@ std::array<Texel, sunColourCount> Scene::sunColours() const
     const auto weights = atmosphere_->luminanceWeights(settings_.solarSpectrumFactors);
     physics::RayTracer tracer(atmosphere_->profile, atmosphere_->optics, 2);
     std::vector<double> columns(medium.species.size());
-    std::array<Texel, sunColourCount> result{};
-    for (int k = 0; k < sunColourCount; ++k) {
-        const double elevation = std::max(horizon, centre + radius * (2. * k / (sunColourCount - 1) - 1));
+    std::vector<Texel> result(static_cast<std::size_t>(count), Texel{});
+    for (int k = 0; k < count; ++k) {
+        const double elevation = std::max(horizon, centre + radius * (2. * k / (count - 1) - 1));
         const auto entry = enterAir(atmosphere_->planet(), settings_.altitude, std::sin(std::min(elevation, pi / 2)));
         std::fill(columns.begin(), columns.end(), 0.);
         if (entry)

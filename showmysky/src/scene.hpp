@@ -1,8 +1,10 @@
 #pragma once
 // All that is computed without OpenGL: a model, settings, and the sky tables and spectra that follow from both.
 
+#include "aerial.hpp"
 #include "eclipse_sky.hpp"
 #include "glow.hpp"
+#include "illuminance.hpp"
 #include "moment_gather.hpp"
 #include "painter.hpp"
 #include "showmysky/sky.hpp"
@@ -39,6 +41,11 @@ public:
     Progress step();
     const SkyView& view() const { return view_; }
     SceneGeometry geometry() const;
+    /// For hosts that ask: follows some lines of aerial perspective for the tables, which must be there; true once all is done.
+    bool aerialStep();
+    const Aerial& aerial() const { return *aerial_; }
+    /// From the tables, which must be there, and the Sun.
+    Illuminance illuminance() const;
     /// Counts changes of what the picture depends on.
     int version() const { return version_; }
 
@@ -52,9 +59,10 @@ private:
     void followSunlight();
     ViewTable glow() const;
     SkyView gathered(LayersUsed layers);
+    ViewTable undimmedWhole() const;
     Progress eclipseStep();
     EclipseScene eclipseScene() const;
-    std::array<Texel, sunColourCount> sunColours() const;
+    std::vector<Texel> sunColours(int count) const;
     Texel limbExponents() const;
 
     std::string directory_;
@@ -66,6 +74,8 @@ private:
     std::unique_ptr<MomentGather> gather_;
     std::unique_ptr<TextureLookup> lookup_;
     std::unique_ptr<Glow> glow_; ///< once light pollution has been asked for
+    std::unique_ptr<Aerial> aerial_;             ///< once a host has asked for it
+    std::optional<SceneSettings> aerialSettings_; ///< that it is for
     SceneSettings settings_;
     std::unique_ptr<EclipseSky> eclipse_; ///< once an eclipse has been asked for
     OrdinarySky ordinary_;                ///< in an eclipse: what it dims

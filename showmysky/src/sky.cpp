@@ -4,6 +4,7 @@
 
 #include "gl/context.hpp"
 #include "gl/state_guard.hpp"
+#include "host_functions.hpp"
 #include "scene.hpp"
 #include "translate.hpp"
 #include "view_direction.hpp"
@@ -67,6 +68,17 @@ struct Sky::Inside {
         painter->setSky(scene.view(), scene.geometry());
         uploaded = scene.version();
     }
+    /// Does a part of the work; true once all is done.
+    bool prepareHostFunctions()
+    {
+        if (hostVersion == scene.version())
+            return true;
+        if (!scene.aerialStep())
+            return false;
+        hostFunctions->set(scene.aerial().texels(), scene.atmosphere().planet(), scene.settings().altitude, scene.illuminance());
+        hostVersion = scene.version();
+        return true;
+    }
     std::array<double, 3> direction(int x, int y)
     {
         requirePixel(x, y);
@@ -85,6 +97,8 @@ struct Sky::Inside {
     gl::BorrowedContext context;
     Scene scene;
     std::unique_ptr<Painter> painter;
+    std::unique_ptr<HostFunctions> hostFunctions; ///< once a host has bound them
+    int hostVersion = -1;                         ///< of the scene that they have
     Drawn drawn;
     int nextStep = 0;
     int uploaded = -1;
@@ -213,15 +227,17 @@ EclipseState Sky::eclipseState(const SceneSettings& settings) const
 
 Progress Sky::prepareStep()
 {
-    return translated([&] {
+    return translated([&]() -> Progress {
         auto& in = *inside_;
         in.requireLoaded();
         in.requireContext();
         const Progress progress = in.scene.step();
-        if (progress.done) {
-            const gl::StateGuard guard(in.context.api());
-            in.uploadIfReady();
-        }
+        if (!progress.done)
+            return progress;
+        const gl::StateGuard guard(in.context.api());
+        in.uploadIfReady();
+        if (in.hostFunctions && !in.prepareHostFunctions())
+            return {false, 0.95, "Following light to distances"};
         return progress;
     });
 }
@@ -312,13 +328,43 @@ std::vector<double> Sky::spectralRadiance(const std::array<double, 3>& direction
     });
 }
 
+std::string Sky::shaderFunctions() const
+{
+    return translated([&] {
+        inside_->requireLoaded();
+        return HostFunctions::source(inside_->scene.atmosphere().scatterers());
+    });
+}
+
+void Sky::bindShaderFunctions(unsigned program, unsigned firstTextureUnit)
+{
+    translated([&] {
+        auto& in = *inside_;
+        in.requireLoaded();
+        in.requireContext();
+        while (!in.scene.step().done) {
+        }
+        {
+            const gl::StateGuard guard(in.context.api());
+            in.uploadIfReady();
+            if (!in.hostFunctions)
+                in.hostFunctions = std::make_unique<HostFunctions>(in.context.api(), in.scene.atmosphere().scatterers(),
+                                                                   in.painter->skyTables().format());
+            while (!in.prepareHostFunctions()) {
+            }
+        }
+        in.hostFunctions->bind(program, firstTextureUnit, *in.painter);
+    });
+}
+
 unsigned Sky::program() const
 {
     return inside_->painter ? inside_->painter->program() : 0;
 }
 std::size_t Sky::textureBytes() const
 {
-    return inside_->painter ? inside_->painter->textureBytes() : 0;
+    const auto& in = *inside_;
+    return (in.painter ? in.painter->textureBytes() : 0) + (in.hostFunctions ? in.hostFunctions->textureBytes() : 0);
 }
 int Sky::fetchesPerPixel() const
 {

@@ -88,6 +88,11 @@ SHOWMYSKY_API size_t showmysky_wavelengths(const showmysky_sky* sky, double* res
 /* W m^-2 sr^-1 nm^-1 at the first `capacity` wavelengths. */
 SHOWMYSKY_API int showmysky_pixel_spectral_radiance(showmysky_sky* sky, int x, int y, double* result, size_t capacity);
 
+/* GLSL functions for shaders of the host, and what a program with them needs of the scene: see sky.hpp. The text belongs to the
+ * library and lives as long as the sky, until it is asked for again; null where it failed. */
+SHOWMYSKY_API const char* showmysky_shader_functions(showmysky_sky* sky);
+SHOWMYSKY_API int showmysky_bind_shader_functions(showmysky_sky* sky, unsigned program, unsigned first_texture_unit);
+
 #ifdef __cplusplus
 }
 #endif

@@ -132,6 +132,25 @@ public:
     /// The same for any direction, without a picture: layers as the settings say, but for the solar disc.
     std::vector<double> spectralRadiance(const std::array<double, 3>& direction);
 
+    // For shaders of the host.
+    /// GLSL to put into a fragment shader of the host, after #version and before its own code; of this model, any scene. It
+    /// declares uniforms, all with names that begin with showmysky, and, for OpenGL ES, highp as the default precision.
+    /// Results are X, Y, Z (cd m^-2, lx) and scotopic; directions, of any length, stand in the frame of settings.hpp.
+    ///     vec4 showmyskyRadiance(vec3 direction)                       sky or ground, without the solar disc
+    ///     vec4 showmyskyRadianceTo(vec3 direction, float distance)     the air up to a point at a distance, m
+    ///     vec4 showmyskyTransmittance(vec3 direction, float distance)  of that air, 0..1, for light of the Sun's spectrum
+    ///     vec4 showmyskySunIlluminance(vec3 normal)                    by the Sun's disc, through the air: of a surface
+    ///     vec4 showmyskySunIlluminance()                               of a horizontal one
+    ///     vec4 showmyskySkyIlluminance()                               of a horizontal one by the sky
+    /// A point in the scene is seen with showmyskyTransmittance times its own light plus showmyskyRadianceTo. docs/library.md
+    /// has an example, and what they leave out.
+    std::string shaderFunctions() const;
+    /// Gives a program that contains them what they need of the present scene: sets its uniforms, and leaves textures bound
+    /// to three units from `firstTextureUnit` on, without sampler objects. To be repeated after setSettings(), and where the
+    /// host has bound other textures there. Computes what is missing; the first call makes prepareStep() do so from then on.
+    ///   throws  settings: `program` isn't linked, or the context has fewer units
+    void bindShaderFunctions(unsigned program, unsigned firstTextureUnit);
+
     /// The OpenGL program that draws, for uniforms of the host's viewDirection().
     unsigned program() const;
     /// Bytes of textures that this Sky holds on the GPU, and texture fetches for one pixel of the last picture.

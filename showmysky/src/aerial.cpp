@@ -1,0 +1,230 @@
+#include "aerial.hpp"
+
+#include "aerial_axis.hpp"
+#include "base/parallel.hpp"
+#include "physics/sky.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace showmysky {
+
+namespace physics = sky::physics;
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr float dark = 1e-30f;
+/// Parts of the interval between two distances, each with sunlight of its own.
+constexpr int singleParts = 2;
+/// Air darker than this is opaque.
+constexpr double mostDepth = 80;
+
+AerialSpacing spacingOf(const physics::Planet& planet, double altitude, bool ground)
+{
+    return ground                               ? AerialSpacing::bothEnds
+           : altitude > planet.topOfAtmosphere ? AerialSpacing::even
+                                               : AerialSpacing::fromCamera;
+}
+
+/// SeenColumns at one distance: within a cell the air is taken as uniform.
+struct Seen {
+    std::vector<double> columns;       ///< [scatterer][wavelength]
+    std::vector<double> transmittance; ///< [wavelength]
+};
+
+Seen seenUpTo(const physics::SeenColumns& all, double distance, std::size_t scatterers, std::size_t wavelengths)
+{
+    Seen result{std::vector<double>(scatterers * wavelengths, 0.), std::vector<double>(wavelengths, 1.)};
+    if (all.distances.size() < 2)
+        return result;
+    const auto after = std::upper_bound(all.distances.begin(), all.distances.end(), distance);
+    const auto last = static_cast<std::ptrdiff_t>(all.distances.size()) - 2;
+    const auto cell = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(after - all.distances.begin() - 1, 0, last));
+    const double x = std::clamp((distance - all.distances[cell]) / (all.distances[cell + 1] - all.distances[cell]), 0., 1.);
+    for (std::size_t w = 0; w < wavelengths; ++w) {
+        const double before = all.transmittance[cell * wavelengths + w], behind = all.transmittance[(cell + 1) * wavelengths + w];
+        const double depth = before > 0 && behind > 0 ? std::log(before / behind) : mostDepth;
+        const double share = depth > 1e-9 ? std::expm1(-depth * x) / std::expm1(-depth) : x;
+        result.transmittance[w] = before * std::exp(-depth * x);
+        for (std::size_t i = 0; i < scatterers; ++i) {
+            const std::size_t near = (cell * scatterers + i) * wavelengths + w, far = near + scatterers * wavelengths;
+            result.columns[i * wavelengths + w] = all.seen[near] + share * (all.seen[far] - all.seen[near]);
+        }
+    }
+    return result;
+}
+
+} // namespace
+
+Aerial::Aerial(const Atmosphere& atmosphere, const Phases& phases, const physics::Moments* moments, const physics::SunTable& sun)
+    : atmosphere_(atmosphere), phases_(phases), moments_(moments), sun_(sun)
+{
+}
+
+void Aerial::set(AerialScene scene)
+{
+    scene_ = std::move(scene);
+    whole_ = scene_.whole.empty() ? ViewTable(halfViews, azimuths) : resampled(scene_.whole, halfViews, azimuths);
+    sines_ = viewSines(atmosphere_.planet(), scene_.altitude, halfViews);
+    texels_.assign(static_cast<std::size_t>(tables(atmosphere_.scatterers()) * distances * 2 * halfViews * azimuths), Texel{});
+    done_ = 0;
+}
+
+bool Aerial::step(int lines)
+{
+    const int end = std::min(2 * halfViews, done_ + lines), first = done_;
+    sky::base::parallel([&](int thread, int threads) {
+        physics::RayTracer tracer(atmosphere_.profile, atmosphere_.optics, 0.25);
+        for (int view = first + thread; view < end; view += threads)
+            trace(view, tracer);
+    });
+    done_ = end;
+    return done_ == 2 * halfViews;
+}
+
+Texel& Aerial::at(int table, int distance, int view, int azimuth)
+{
+    return texels_[static_cast<std::size_t>(((table * distances + distance) * 2 * halfViews + view) * azimuths + azimuth)];
+}
+
+Texel Aerial::luminance(const std::vector<double>& radiance) const
+{
+    Texel sum{};
+    for (std::size_t w = 0; w < scene_.weights.size(); ++w)
+        for (std::size_t c = 0; c < 4; ++c)
+            sum[c] += scene_.weights[w][c] * static_cast<float>(std::max(0., radiance[w]));
+    return sum;
+}
+
+Aerial::Line Aerial::line(const physics::SeenColumns& seen, const AirEntry& entry, bool ground, int parts) const
+{
+    const auto& planet = atmosphere_.planet();
+    const auto scatterers = static_cast<std::size_t>(atmosphere_.scatterers());
+    const auto wavelengths = static_cast<std::size_t>(atmosphere_.wavelengths());
+    const auto spacing = spacingOf(planet, scene_.altitude, ground);
+    const double radius = planet.radius + entry.altitude, length = seen.distances.back();
+    Line result;
+    std::vector<double> before(scatterers * wavelengths, 0.);
+    double from = 0;
+    for (int k = 1; k < distances; ++k)
+        for (int part = 1; part <= parts; ++part) {
+            const double near = aerialDistance(double(k - 1) / (distances - 1), length, spacing);
+            const double far = aerialDistance(double(k) / (distances - 1), length, spacing);
+            const double to = near + (far - near) * part / parts, s = 0.5 * (from + to);
+            const double h = physics::altitudeAlong(planet, entry.altitude, entry.mu, s), there = planet.radius + h;
+            result.nodes.push_back(entry.node({h, radius / there, s / there, std::clamp((radius * entry.mu + s) / there, -1., 1.)}));
+            const auto upTo = seenUpTo(seen, to, scatterers, wavelengths).columns;
+            for (std::size_t i = 0; i < upTo.size(); ++i)
+                result.columns.push_back(upTo[i] - before[i]);
+            before = upTo;
+            from = to;
+        }
+    return result;
+}
+
+void Aerial::trace(int view, physics::RayTracer& tracer)
+{
+    const auto& planet = atmosphere_.planet();
+    const double mu = sines_[static_cast<std::size_t>(view)];
+    const bool ground = view >= halfViews;
+    const auto entry = enterAir(planet, scene_.altitude, mu);
+    if (!entry)
+        return;
+    const auto scatterers = static_cast<std::size_t>(atmosphere_.scatterers());
+    const auto wavelengths = static_cast<std::size_t>(atmosphere_.wavelengths());
+    const auto seen = tracer.seen(entry->altitude, entry->mu, ground);
+    const double length = seen.distances.back();
+    const auto spacing = spacingOf(planet, scene_.altitude, ground);
+    const Texel white = luminance(std::vector<double>(wavelengths, 1.));
+    std::vector<Texel> columnShares;
+    for (int k = 0; k < distances; ++k) {
+        const Seen upTo = seenUpTo(seen, aerialDistance(double(k) / (distances - 1), length, spacing), scatterers, wavelengths);
+        const Texel through = luminance(upTo.transmittance);
+        std::vector<double> all(wavelengths, 0.);
+        for (std::size_t i = 0; i < scatterers; ++i)
+            for (std::size_t w = 0; w < wavelengths; ++w)
+                all[w] += upTo.columns[i * wavelengths + w];
+        columnShares.push_back(luminance(all));
+        Texel depth{};
+        for (std::size_t c = 0; c < 4; ++c)
+            depth[c] = through[c] > dark * white[c] ? -std::log(through[c] / white[c]) : static_cast<float>(mostDepth);
+        for (int a = 0; a < azimuths; ++a)
+            at(atmosphere_.scatterers() + 1, k, view, a) = depth;
+    }
+    for (Texel& share : columnShares)
+        for (std::size_t c = 0; c < 4; ++c)
+            share[c] = columnShares.back()[c] > dark ? share[c] / columnShares.back()[c] : 1.f;
+    growLight(view, mu, line(seen, *entry, ground, singleParts), line(seen, *entry, ground, 1), columnShares);
+}
+
+void Aerial::growLight(int view, double mu, const Line& single, const Line& multiple, const std::vector<Texel>& columnShares)
+{
+    const auto scatterers = static_cast<std::size_t>(atmosphere_.scatterers());
+    const auto wavelengths = static_cast<std::size_t>(atmosphere_.wavelengths());
+    const auto& optics = atmosphere_.optics;
+    const physics::SkyEvaluator evaluator(atmosphere_.medium, atmosphere_.profile, optics, sun_);
+    const double muSun = scene_.muSun, sines = std::sqrt(std::max(0., (1 - mu * mu) * (1 - muSun * muSun)));
+    const std::size_t stride = scatterers * wavelengths;
+    std::vector<double> light(wavelengths), ratio(wavelengths), part(wavelengths);
+    std::vector<Texel> grown(distances);
+    // Shares of the last of `grown`, or of more than it.
+    const auto store = [&](int table, int azimuth, const Texel& total) {
+        for (int k = 0; k < distances; ++k)
+            for (std::size_t c = 0; c < 4; ++c)
+                at(table, k, view, azimuth)[c] = total[c] > dark ? std::clamp(grown[static_cast<std::size_t>(k)][c] / total[c], 0.f, 1.f)
+                                                                 : columnShares[static_cast<std::size_t>(k)][c];
+    };
+    for (int a = 0; a < azimuths; ++a) {
+        const double nu = std::clamp(mu * muSun + sines * std::cos(pi * a / (azimuths - 1)), -1., 1.);
+        std::vector<double> lit(stride, 0.);
+        std::vector<std::vector<Texel>> singles(scatterers, std::vector<Texel>(distances, Texel{}));
+        std::vector<std::vector<double>> ratios(scatterers, std::vector<double>(wavelengths));
+        for (std::size_t i = 0; i < scatterers; ++i) {
+            phases_.ratio(static_cast<int>(i), nu, ratios[i].data());
+            for (std::size_t w = 0; w < wavelengths; ++w)
+                ratios[i][w] /= 1 - optics.truncation[static_cast<std::size_t>(optics.scatterers[i]) * wavelengths + w];
+        }
+        for (std::size_t n = 0; n < single.nodes.size(); ++n) {
+            const auto& node = single.nodes[n];
+            sun_.transmittance(node.altitude, std::clamp(node.sunScale * muSun + node.nuScale * nu, -1., 1.), light.data());
+            for (std::size_t i = 0; i < scatterers; ++i)
+                for (std::size_t w = 0; w < wavelengths; ++w)
+                    lit[i * wavelengths + w] += single.columns[n * stride + i * wavelengths + w] * light[w];
+            if ((n + 1) % singleParts == 0)
+                for (std::size_t i = 0; i < scatterers; ++i) {
+                    for (std::size_t w = 0; w < wavelengths; ++w)
+                        part[w] = lit[i * wavelengths + w] * ratios[i][w];
+                    singles[i][(n + 1) / singleParts] = luminance(part);
+                }
+        }
+        for (std::size_t i = 0; i < scatterers; ++i) {
+            grown = singles[i];
+            store(static_cast<int>(i) + 1, a, grown.back());
+        }
+        std::fill(grown.begin(), grown.end(), Texel{});
+        if (moments_ && scene_.layers.multiple) {
+            std::vector<double> sum(wavelengths, 0.);
+            physics::RayNodes one;
+            for (std::size_t n = 0; n < multiple.nodes.size(); ++n) {
+                one.nodes.assign(1, multiple.nodes[n]);
+                one.weights.assign(&multiple.columns[n * stride], &multiple.columns[n * stride] + stride);
+                evaluator.multipleAlong(one, *moments_, muSun, nu, sum.data());
+                grown[n + 1] = luminance(sum);
+            }
+        }
+        Texel total = grown.back();
+        const Texel& seen = whole_.at(view, a);
+        if (view >= halfViews)
+            total = seen; // with the ground
+        else if (scene_.glow)
+            for (std::size_t c = 0; c < 4; ++c) {
+                const float other = std::max(0.f, seen[c] - total[c]);
+                for (int k = 0; k < distances; ++k)
+                    grown[static_cast<std::size_t>(k)][c] += other * columnShares[static_cast<std::size_t>(k)][c];
+                total[c] += other;
+            }
+        store(0, a, total);
+    }
+}
+
+} // namespace showmysky

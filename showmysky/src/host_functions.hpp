@@ -1,0 +1,33 @@
+#pragma once
+// What hosts get for shaders of their own: the text of shaders/render/host_functions.glsl, its textures and its uniforms.
+
+#include "aerial.hpp"
+#include "illuminance.hpp"
+#include "painter.hpp"
+
+namespace showmysky {
+
+class HostFunctions
+{
+public:
+    HostFunctions(const sky::gl::Api& api, int scatterers, sky::gl::TextureFormat format);
+
+    /// The functions, without #version.
+    static std::string source(int scatterers);
+
+    /// What stays the same until the scene changes.
+    ///   texels  Aerial::texels()
+    void set(const std::vector<Texel>& texels, const sky::physics::Planet& planet, double altitude, const Illuminance& light);
+    /// Binds three textures from unit `firstUnit` on, and sets uniforms of a host's program.
+    ///   throws  Error: it isn't a linked program, or there are too few units
+    void bind(unsigned program, unsigned firstUnit, const Painter& painter) const;
+
+    std::size_t textureBytes() const;
+
+private:
+    sky::gl::Api api_;
+    sky::gl::Texture3D aerial_;
+    Uniforms uniforms_;
+};
+
+} // namespace showmysky
