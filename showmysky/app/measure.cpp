@@ -82,6 +82,8 @@ public:
             scene.moon = {0.00005 * (frame % 100), 0.8, 371925e3};
         };
         scene.eclipseOrders = 2;
+        moveMoon();
+        draw(); // what a model and a Sun need once
         framesPerSecond("eclipse of order 2, Moon moving", moveMoon);
         scene.eclipseOrders = 0;
         framesPerSecond("eclipse, all orders, Moon moving", moveMoon);
