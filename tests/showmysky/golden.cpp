@@ -145,8 +145,8 @@ TEST_CASE("golden: a Sun two degrees lower, an aerosol less or a greener sky wou
         CAPTURE(golden.name);
         const Shown right = shown(sky, golden);
         CHECK(visibleDifference(right, right).empty());
-        if (golden.name == "day-textures" || golden.settings.eclipse == EclipseMode::on)
-            continue; // as the day; and its Sun would leave the Moon behind
+        if (golden.name == "day-textures" || golden.name == "mirror" || golden.settings.eclipse == EclipseMode::on)
+            continue; // much as others; and the last one's Sun would leave the Moon behind
         Golden lower = golden;
         lower.settings.sun.zenithAngle += 2 * degree;
         CHECK_FALSE(visibleDifference(shown(sky, lower), right).empty());
