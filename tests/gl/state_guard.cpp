@@ -1,6 +1,7 @@
 #include "context_for_tests.hpp"
 
 #include <map>
+#include <memory>
 
 #include "gl/buffer.hpp"
 #include "gl/framebuffer.hpp"
@@ -115,4 +116,23 @@ TEST_CASE("state guard: a host's state is as it was, in desktop GL and in ES", "
         gl::checkErrors(api, "test");
         api->DeleteSamplers(1, &sampler);
     }
+}
+
+TEST_CASE("state guard: a unit whose texture was deleted meanwhile stays empty, without an error", "[gl]")
+{
+    const auto context = gl::testing::context();
+    if (!context)
+        return;
+    const gl::Api& api = context->api();
+    auto texture = std::make_unique<gl::Texture2D>(api, "replaced", gl::TextureFormat::rgba8, 2, 2);
+    texture->bindUnit(3);
+    {
+        const gl::StateGuard guard(api);
+        texture.reset();
+    }
+    GLint bound = -1;
+    api->ActiveTexture(GL_TEXTURE3);
+    api->GetIntegerv(GL_TEXTURE_BINDING_2D, &bound);
+    CHECK(bound == 0);
+    CHECK(api->GetError() == GL_NO_ERROR);
 }
