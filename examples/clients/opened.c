@@ -38,6 +38,7 @@ int main(int argc, char** argv)
     void (*default_scene)(showmysky_scene*);
     int (*set_scene)(showmysky_sky*, const showmysky_scene*);
     int (*draw)(showmysky_sky*, const showmysky_camera*, int, int, int);
+    const char* (*shader_functions)(showmysky_sky*);
     size_t (*wavelengths)(const showmysky_sky*, double*, size_t);
     int (*pixel_spectral_radiance)(showmysky_sky*, int, int, double*, size_t);
     showmysky_camera camera = {SHOWMYSKY_PERSPECTIVE, 1.2, 0, 0.7, 0};
@@ -71,6 +72,7 @@ int main(int argc, char** argv)
     FIND(default_scene);
     FIND(set_scene);
     FIND(draw);
+    FIND(shader_functions);
     FIND(wavelengths);
     FIND(pixel_spectral_radiance);
 
@@ -88,6 +90,9 @@ int main(int argc, char** argv)
         puts(error());
         return 1;
     }
+    /* Text for fragment shaders of the program's own; haze.cpp draws with it. */
+    if (!shader_functions(sky) || !strstr(shader_functions(sky), "vec4 showmyskyRadiance(vec3 direction)"))
+        return 1;
     count = wavelengths(sky, nm, 64);
     if (!count || !pixel_spectral_radiance(sky, 160, 100, radiance, 64)) {
         puts(error());

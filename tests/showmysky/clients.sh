@@ -17,6 +17,7 @@ run() { # a client without OpenGL says so with 77: skipped, not passed
     return $code
 }
 run "$scratch/build/linked" "$model"
+run "$scratch/build/haze" "$model" "$scratch/haze.ppm"
 run "$scratch/build/opened" "$library" "$model"
 "$scratch/installed/bin/showmysky" --version
 
