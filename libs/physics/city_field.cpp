@@ -15,8 +15,8 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 
 /// Nodes of a ray: about the place nearest to the city, and where the light that is seen comes from.
-constexpr int viewNearNodes = 18, fieldNearNodes = 12, fieldFarNodes = 10;
-constexpr int levels = 14, anglesOfField = 26, azimuthsOfField = 6, fewestEvents = 3, mostEvents = 8;
+constexpr int viewNearNodes = 18, fieldNearNodes = 10, fieldFarNodes = 8;
+constexpr int levels = 12, anglesOfField = 22, azimuthsOfField = 6, fewestEvents = 3, mostEvents = 8;
 constexpr double tolerance = 0.02; // relative change of the closed series, where the field is bright, at which events end
 constexpr float darkLog2 = -100.F; // of a radiance that is told from darkness
 
@@ -256,9 +256,9 @@ CityField::CityField(const CityAir& air, const double discRadius)
         measures_.push_back(std::sqrt(radiusExcessSquared(p, h)));
 
     MomentSettings settings;
-    settings.groundDirections = 5;
+    settings.groundDirections = 4;
     settings.limbDirections = 2;
-    settings.skyDirections = 7;
+    settings.skyDirections = 6;
     std::vector<Directions> directions;
     std::vector<std::vector<CityColumns>> columns(levels);
     for (const double h : altitudes_)

@@ -1,5 +1,6 @@
 // One direction per pixel: its place in the tables of this sky, the exact phase functions, the Sun.
 // vec3 viewDirection(vec2 position) comes from the host, or from render/projections.glsl.
+#include "render/city_light.glsl"
 #include "render/sky_light.glsl"
 #include "user:viewDirection"
 
@@ -46,7 +47,7 @@ void main()
     }
     float elevation = elevationOf(direction.z);
     lookIntoMirror(direction, elevation);
-    result = skyLight(direction, elevation);
+    result = skyLight(direction, elevation) + cityLight(direction, elevation);
     if (sunRadius > 0.0 && elevation >= horizon)
         result += sunDisc(direction, elevation, angleBetween(direction, sunDirection), pixelAngle);
     result = min(result, vec4(largest));

@@ -4,6 +4,7 @@
 #include "base/suggest.hpp"
 #include "probe_queries.hpp"
 #include "probe_sources.hpp"
+#include "scene_options.hpp"
 #include "subcommand.hpp"
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include <cstdio>
 #include <fstream>
 #include <iostream>
+#include <optional>
 #include <random>
 #include <sstream>
 
@@ -52,6 +54,9 @@ public:
         entry->add_option("-o,--output", output_, "CSV file to write; - (the default) for standard output.");
         entry->add_option("--source", source_, "moments (the default), textures, or cpu: the moments in double precision.");
         entry->add_option("--layers", layers_, "Light to add up: some of zero,single,multiple,light-pollution (default: the first three).");
+        entry->add_option("--city", cities_, "Add the light of a city: distance=50km,azimuth=30,radius=5km,luminance=2[,spectrum=A:B:...]; "
+                                             "repeat it, or separate more by semicolons.")
+            ->allow_extra_args(false);
         entry->add_flag("--benchmark", benchmark_, "Print how long one question takes, instead of answering any.");
         return entry;
     }
@@ -75,9 +80,15 @@ public:
         for (const auto& column : columns)
             text += "," + column;
         text += "\n";
+        const auto cities = parsedCities();
+        std::optional<Photometer> photometer;
+        if (!cities.empty())
+            photometer.emplace(directory_);
         std::vector<double> values(columns.size());
         for (std::size_t i = 0; i < queries.views.size(); ++i) {
             source->answer(queries.views[i], queries.moons.empty() ? nullptr : &queries.moons[i], layers, values.data());
+            if (!cities.empty())
+                addCities(*photometer, queries.views[i], cities, values);
             text += queries.lines[i];
             for (const double value : values) {
                 char number[32];
@@ -98,6 +109,31 @@ private:
         if (source_ != "moments" && source_ != "cpu")
             throw sky::UsageError("--source is \"" + source_ + "\"; expected moments, textures or cpu.");
         return makeMomentSource(directory_, source_ == "cpu" ? Photometer::Method::reference : Photometer::Method::fast);
+    }
+
+    std::vector<City> parsedCities() const
+    {
+        std::vector<City> cities;
+        for (const auto& text : cities_)
+            for (const auto& city : parseCities(text))
+                cities.push_back(city.city());
+        return cities;
+    }
+
+    static void addCities(const Photometer& photometer, const Photometer::View& view, const std::vector<City>& cities,
+                          std::vector<double>& values)
+    {
+        std::vector<double> spectrum(photometer.wavelengthsNm().size());
+        photometer.cityRadiance(&view, 1, cities, spectrum.data());
+        if (values.size() == spectrum.size()) {
+            for (std::size_t w = 0; w < values.size(); ++w)
+                values[w] += spectrum[w];
+            return;
+        }
+        const auto colour = photometer.colourOf(spectrum.data());
+        const double parts[] = {colour.X, colour.Y, colour.Z, colour.scotopic};
+        for (std::size_t c = 0; c < 4; ++c)
+            values[c] += parts[c];
     }
 
     ProbeQueries read() const
@@ -152,6 +188,7 @@ private:
         return 0;
     }
 
+    std::vector<std::string> cities_;
     std::string directory_, queries_, output_ = "-", source_ = "moments", layers_ = "zero,single,multiple";
     bool benchmark_ = false;
 };

@@ -40,6 +40,14 @@ def _candidates():
     return found + [name for name in [ctypes.util.find_library("ShowMySky"), "libShowMySky.so.0"] if name]
 
 
+class _City(ctypes.Structure):
+    _fields_ = [
+        *((name, ctypes.c_double) for name in ("distance", "azimuth", "radius", "luminance")),
+        ("spectrum", ctypes.POINTER(ctypes.c_double)),
+        ("spectrum_count", ctypes.c_size_t),
+    ]
+
+
 def _load():
     problems = []
     for candidate in _candidates():
@@ -66,6 +74,7 @@ def _load():
         "radiance": [handle, array, ctypes.c_size_t, ctypes.c_uint, array],
         "eclipsed_radiance": [handle, array, array, ctypes.c_size_t, ctypes.c_uint, array],
         "obscuration": [handle, array, array, array],
+        "city_radiance": [handle, array, ctypes.c_size_t, ctypes.POINTER(_City), ctypes.c_size_t, array],
         "luminance": [handle, array, ctypes.c_size_t, ctypes.c_uint, array],
         "colour": [handle, array, array],
         "transmittance": [handle, real, real, array],
@@ -140,6 +149,25 @@ class Photometer:
         result = np.empty(1)
         _check(_library.showmysky_photometer_obscuration(self._handle, _pointer(view), _pointer(moon), _pointer(result)))
         return float(result[0])
+
+    def city_radiance(self, altitude, view_zenith, azimuth, cities):
+        """Light of cities alone: [..., wavelength]. A city is (distance, azimuth, radius, luminance) or the same with a spectrum."""
+        arrays = np.broadcast_arrays(altitude, 0.0, 0.0, view_zenith, azimuth)
+        views = np.ascontiguousarray(np.stack(arrays, axis=-1), dtype=float)
+        result = np.empty(views.shape[:-1] + (self._count,))
+        table = (_City * len(cities))()
+        spectra = []  # kept alive
+        for entry, city in zip(table, cities):
+            entry.distance, entry.azimuth, entry.radius, entry.luminance = city[:4]
+            if len(city) > 4:
+                spectra.append(np.ascontiguousarray(city[4], dtype=float))
+                entry.spectrum, entry.spectrum_count = _pointer(spectra[-1]), spectra[-1].size
+        _check(
+            _library.showmysky_photometer_city_radiance(
+                self._handle, _pointer(views), views.size // 5, table, len(cities), _pointer(result)
+            )
+        )
+        return result
 
     def luminance(self, altitude, sun_zenith, view_zenith, azimuth=0.0, layers=WHOLE_SKY):
         """CIE 1931 X, Y, Z and scotopic luminance, cd m^-2: [..., 4]."""

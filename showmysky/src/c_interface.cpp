@@ -2,6 +2,7 @@
 
 #include "showmysky/sky.h"
 
+#include "c_cities.hpp"
 #include "showmysky/sky.hpp"
 #include <algorithm>
 #include <cstring>
@@ -73,6 +74,8 @@ SceneSettings settingsOf(const showmysky_scene& given)
     settings.eclipseOrders = scene.eclipse_orders;
     settings.eclipseFine = scene.eclipse_fine != 0;
     settings.limbDarkening = scene.limb_darkening != 0;
+    if (scene.cities)
+        settings.cities = citiesOf(scene.cities, scene.city_count);
     if (scene.solar_spectrum_factors)
         settings.solarSpectrumFactors.assign(scene.solar_spectrum_factors,
                                              scene.solar_spectrum_factors + scene.solar_spectrum_factor_count);

@@ -14,13 +14,14 @@ namespace gl = sky::gl;
 
 namespace {
 
-constexpr GLuint tablesUnit = 0, phasesUnit = 1, directionsUnit = 2;
+constexpr GLuint tablesUnit = 0, phasesUnit = 1, directionsUnit = 2, cityAirUnit = 3, cityDiscsUnit = 4;
 constexpr double pi = 3.14159265358979323846;
 
 gl::Program buildProgram(const gl::Api& api, int scatterers, const Options& options)
 {
     std::vector<gl::Define> defines = Painter::lightDefines(scatterers);
     defines.push_back({"SUN_COLOURS", std::to_string(sunColourCount)});
+    defines.push_back({"CITY_COLOURS", std::to_string(cityColourCount)});
     const bool host = !options.viewDirectionFunction.empty();
     const std::string builtIn = "render/projections.glsl";
     const gl::Snippet projection{"viewDirection",
@@ -68,6 +69,7 @@ Painter::Painter(const gl::Api& api, int scatterers, const std::vector<Texel>& p
       scatterers_(scatterers), program_(buildProgram(api, scatterers, options)), triangle_(api, "sky triangle"),
       phases_(api, "phase functions", formatOf(half_), phaseWidth, static_cast<int>(phases.size()) / phaseWidth),
       tables_(api, "sky tables", formatOf(half_), drawnAzimuths, 2 * drawnHalfViews * (scatterers + 1)),
+      cityAir_(api, "air above cities", formatOf(half_), 1, 1), cityDiscs_(api, "cities", gl::TextureFormat::rgba32f, 1, 1),
       direction_(api, "direction of a pixel", formatOf(half_), 1, 1), target_(api, "luminance"),
       directionTarget_(api, "direction of a pixel")
 {
@@ -127,6 +129,36 @@ void Painter::setSky(const SkyView& view, const SceneGeometry& geometry)
             value);
     program_.setVec4s("sunColours", geometry.sunColours);
     program_.set("sunRadius", static_cast<float>(geometry.sunRadius));
+    program_.set("dipTangent", static_cast<float>(geometry.dipTangent));
+}
+
+void Painter::setCities(const CityLight& light)
+{
+    cities_ = static_cast<int>(light.discs.size());
+    program_.set("cityCount", cities_);
+    if (cities_ == 0)
+        return;
+    float largest = 1e-30f;
+    for (const Texel& texel : light.air.texels)
+        largest = std::max({largest, texel[0], texel[1], texel[2], texel[3]});
+    std::vector<float> air = flat(light.air.texels), discs;
+    for (float& value : air)
+        value /= largest;
+    for (const auto& disc : light.discs) {
+        for (const double value : {disc.angle, disc.azimuth, disc.radius, 0.})
+            discs.push_back(static_cast<float>(value));
+        for (const Texel& colour : disc.colours)
+            discs.insert(discs.end(), colour.begin(), colour.end());
+    }
+    if (cityAir_.size().width != light.air.azimuths)
+        cityAir_ = gl::Texture2D(api_, "air above cities", formatOf(half_), light.air.azimuths, 2 * light.air.halfViews);
+    if (cityDiscs_.size().width != 1 + cityColourCount || cityDiscs_.size().height != cities_)
+        cityDiscs_ = gl::Texture2D(api_, "cities", gl::TextureFormat::rgba32f, 1 + cityColourCount, cities_);
+    cityDiscs_.setFilter(gl::Filter::nearest);
+    cityAir_.upload(air);
+    cityDiscs_.upload(discs);
+    program_.set("cityScale", largest);
+    program_.set("cityTableSize", std::array<float, 2>{static_cast<float>(light.air.azimuths), static_cast<float>(light.air.halfViews)});
 }
 
 void Painter::setAxes(const SkyView& view, const SceneGeometry& geometry)
@@ -149,6 +181,8 @@ void Painter::setCamera(const Camera& camera, int width, int height)
 {
     program_.setTexture("skyTables", tablesUnit, tables_);
     program_.setTexture("phases", phasesUnit, phases_);
+    program_.setTexture("cityAir", cityAirUnit, cityAir_);
+    program_.setTexture("cityDiscs", cityDiscsUnit, cityDiscs_);
     if (hostProjection_)
         return;
     program_.set("pictureSize", std::array<float, 2>{static_cast<float>(width), static_cast<float>(height)});
@@ -225,12 +259,12 @@ Texel Painter::readPixel(int x, int y) const
 
 std::size_t Painter::textureBytes() const
 {
-    return bytesOf(phases_) + bytesOf(tables_) + bytesOf(direction_) + (luminance_ ? bytesOf(*luminance_) : 0);
+    return bytesOf(phases_) + bytesOf(tables_) + bytesOf(cityAir_) + bytesOf(cityDiscs_) + bytesOf(direction_) + (luminance_ ? bytesOf(*luminance_) : 0);
 }
 
 int Painter::fetchesPerPixel() const
 {
-    return 1 + scatterers_ + (scatterers_ + 3) / 4;
+    return 1 + (cities_ > 0 ? 1 : 0) + scatterers_ + (scatterers_ + 3) / 4;
 }
 
 } // namespace showmysky

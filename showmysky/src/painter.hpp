@@ -1,6 +1,7 @@
 #pragma once
 // The full-resolution pass: what OpenGL holds and does.
 
+#include "cities.hpp"
 #include "gl/framebuffer.hpp"
 #include "gl/program.hpp"
 #include "gl/texture.hpp"
@@ -17,6 +18,7 @@ constexpr int sunColourCount = 8; ///< samples of the disc's luminance from its 
 struct SceneGeometry {
     std::array<double, 3> sunDirection{};
     double horizon = 0;   ///< elevation, rad
+    double dipTangent = 0; ///< of its angle below the horizontal
     double sunRadius = 0; ///< rad; 0 where the disc isn't shown
     std::array<Texel, sunColourCount> sunColours{};
     bool eclipse = false;
@@ -36,6 +38,7 @@ public:
     static constexpr int phaseWidth = 2048;
 
     void setSky(const SkyView& view, const SceneGeometry& geometry);
+    void setCities(const CityLight& light);
     void draw(const Camera& camera, int width, int height, int reduction);
     /// Direction of the middle of a drawn pixel, drawn by the shader itself: for directions that only the host knows.
     std::array<double, 3> drawDirection(const Camera& camera, int x, int y);
@@ -67,7 +70,8 @@ private:
     sky::gl::Program program_;
     Uniforms light_;
     sky::gl::VertexArray triangle_;
-    sky::gl::Texture2D phases_, tables_;
+    sky::gl::Texture2D phases_, tables_, cityAir_, cityDiscs_;
+    int cities_ = 0;
     sky::gl::Texture2D direction_;
     std::optional<sky::gl::Texture2D> luminance_;
     sky::gl::Framebuffer target_, directionTarget_;

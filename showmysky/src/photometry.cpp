@@ -1,4 +1,5 @@
 #include "showmysky/photometry.hpp"
+#include "cities.hpp"
 #include "glow.hpp"
 #include "photometry_eclipse.hpp"
 #include "photometry_gather.hpp"
@@ -125,6 +126,8 @@ struct Photometer::Inside {
     PhotometryModel sky;
     std::optional<Glow> glow; ///< if the model has it
     EclipsePhotometry eclipse{sky};
+    mutable std::once_flag citiesOnce;
+    mutable std::unique_ptr<Cities> cities; ///< once they have been asked for
     Method method;
     FastGather gather;
     mutable std::mutex mutex;
@@ -321,6 +324,30 @@ double Photometer::obscuration(const View& view, const Moon& moon) const
         checkView(view);
         checkZenithAngle("The Moon's zenith angle", moon.zenithAngle);
         return inside_->eclipse.obscuration(view, moon);
+    });
+}
+
+void Photometer::cityRadiance(const View* const views, const std::size_t count, const std::vector<City>& cities, double* const spectra) const
+{
+    translated([&] {
+        const auto& sky = inside_->sky;
+        std::call_once(inside_->citiesOnce, [&] {
+            inside_->cities = std::make_unique<Cities>(sky.medium, sky.model.manifest().lightPollutionRadiance);
+        });
+        const std::string wrong = inside_->cities->whyNot(cities);
+        if (!wrong.empty())
+            throw Error(ErrorKind::settings, wrong);
+        const auto wavelengths = static_cast<std::size_t>(inside_->wavelengths());
+        std::fill(spectra, spectra + count * wavelengths, 0.);
+        for (std::size_t i = 0; i < count; ++i) {
+            checkAltitude(views[i].altitude);
+            checkZenithAngle("The view's zenith angle", views[i].viewZenithAngle);
+            const double sine = std::sin(views[i].viewZenithAngle);
+            inside_->cities->addRadiance(cities, views[i].altitude,
+                                         {sine * std::cos(views[i].viewAzimuth), -sine * std::sin(views[i].viewAzimuth),
+                                          std::cos(views[i].viewZenithAngle)},
+                                         spectra + i * wavelengths);
+        }
     });
 }
 

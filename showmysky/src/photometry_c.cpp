@@ -1,5 +1,6 @@
 #include "showmysky/photometry.h"
 #include "showmysky/photometry.hpp"
+#include "c_cities.hpp"
 #include <algorithm>
 #include <cstring>
 #include <new>
@@ -144,6 +145,16 @@ int showmysky_photometer_obscuration(const showmysky_photometer* p, const showmy
 {
     return answer(p, view && moon && share, [&](const Photometer& photometer) {
         *share = photometer.obscuration(viewOf(*view), {moon->azimuth, moon->zenith_angle, moon->distance});
+    });
+}
+
+int showmysky_photometer_city_radiance(const showmysky_photometer* photometer, const showmysky_view* views, size_t count,
+                                       const showmysky_city* cities, size_t city_count, double* spectra)
+{
+    return answer(photometer, ((views && spectra) || count == 0) && (cities || city_count == 0), [&](const Photometer& p) {
+        std::vector<Photometer::View> converted(count);
+        std::transform(views, views + count, converted.begin(), viewOf);
+        p.cityRadiance(converted.data(), count, showmysky::citiesOf(cities, city_count), spectra);
     });
 }
 

@@ -40,7 +40,7 @@ bool sameTables(const SceneSettings& a, const SceneSettings& b)
 {
     return a.altitude == b.altitude && a.sun.zenithAngle == b.sun.zenithAngle &&
            a.sun.angularRadius == b.sun.angularRadius && same(a.layers, b.layers) &&
-           a.lightPollutionLuminance == b.lightPollutionLuminance && a.source == b.source &&
+           a.lightPollutionLuminance == b.lightPollutionLuminance && a.cities == b.cities && a.source == b.source &&
            a.onTheFlySingleScattering == b.onTheFlySingleScattering && a.solarSpectrumFactors == b.solarSpectrumFactors;
 }
 
@@ -113,7 +113,7 @@ bool Scene::hasSource(Source source) const
 
 std::string Scene::whyUnsupported(const SceneSettings& settings) const
 {
-    if (settings.layers.lightPollution)
+    if (settings.layers.lightPollution && (settings.lightPollutionLuminance > 0 || settings.cities.empty()))
         if (const std::string why = Glow::whyMissing(atmosphere_->model); !why.empty())
             return why;
     if (!hasSource(settings.source))
@@ -171,7 +171,13 @@ void Scene::setSettings(const SceneSettings& settings)
     const std::string why = whyUnsupported(settings);
     if (!why.empty())
         throw Error(ErrorKind::unsupported, why);
-    if (settings.layers.lightPollution && !glow_)
+    if (!settings.cities.empty()) {
+        if (!cities_)
+            cities_ = std::make_unique<Cities>(atmosphere_->medium, atmosphere_->model.manifest().lightPollutionRadiance);
+        const std::string wrong = cities_->whyNot(settings.cities);
+        require(wrong.empty(), wrong);
+    }
+    if (settings.layers.lightPollution && settings.lightPollutionLuminance > 0 && !glow_)
         glow_ = std::make_unique<Glow>(atmosphere_->model, atmosphere_->medium);
     if (!sameTables(settings, settings_) || settings.eclipse != settings_.eclipse)
         ordinaryReady_ = ready_ = false;
@@ -209,6 +215,8 @@ Progress Scene::step()
         followSunlight();
         return {false, 0.1, "Following rays"};
     }
+    if (lightCities())
+        return {false, 0.1, "Lighting cities"};
     const bool eclipse = settings_.eclipse == EclipseMode::on;
     if (eclipse && ordinaryReady_)
         return eclipseStep();
@@ -324,6 +332,29 @@ ViewTable Scene::glow() const
     return result;
 }
 
+/// Does a part of the work on cities, if there is any left.
+bool Scene::lightCities()
+{
+    const bool shown = settings_.layers.lightPollution && !settings_.cities.empty();
+    if (!shown) {
+        cityView_ = {};
+        return false;
+    }
+    if (cityView_.altitude == settings_.altitude && cityView_.cities == settings_.cities)
+        return false;
+    for (const City& city : settings_.cities)
+        if (!cities_->isPrepared(city.radius)) {
+            cities_->prepare(city.radius);
+            return true;
+        }
+    cityView_ = {settings_.altitude, settings_.cities, ViewTable(drawnHalfViews, cityAzimuths), {}};
+    for (const City& city : settings_.cities) {
+        cities_->addTo(cityView_.air, city, settings_.altitude);
+        cityView_.discs.push_back(cities_->drawn(city, settings_.altitude));
+    }
+    return true;
+}
+
 ViewTable Scene::undimmedWhole() const
 {
     if (settings_.eclipse == EclipseMode::off)
@@ -368,6 +399,8 @@ SceneGeometry Scene::geometry() const
     SceneGeometry result;
     result.sunDirection = directionOf(settings_.sun.azimuth, settings_.sun.zenithAngle);
     result.horizon = physics::horizonElevation(atmosphere_->planet(), settings_.altitude);
+    const double excess = physics::radiusExcessSquared(atmosphere_->planet(), settings_.altitude);
+    result.dipTangent = std::sqrt(excess) / atmosphere_->planet().radius;
     result.mirror = settings_.pseudoMirror;
     result.filter = settings_.textureFiltering;
     if (settings_.layers.solarDisc && settings_.layers.zeroOrder) {
@@ -513,7 +546,9 @@ std::vector<double> Scene::spectralRadiance(const std::array<double, 3>& directi
     for (std::size_t w = 0; w < wavelengths; ++w)
         result[w] = std::max(0., result[w]) * medium.solarIrradiance[w] *
                     (settings_.solarSpectrumFactors.empty() ? 1 : settings_.solarSpectrumFactors[w]);
-    if (settings_.layers.lightPollution) {
+    if (settings_.layers.lightPollution && !settings_.cities.empty())
+        cities_->addRadiance(settings_.cities, settings_.altitude, view, result.data());
+    if (settings_.layers.lightPollution && settings_.lightPollutionLuminance > 0) {
         std::vector<double> glow(wavelengths);
         glow_->radiance(settings_.altitude, view[2], glow.data());
         for (std::size_t w = 0; w < wavelengths; ++w)

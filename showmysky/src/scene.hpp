@@ -3,6 +3,7 @@
 
 #include "aerial.hpp"
 #include "eclipse_sky.hpp"
+#include "cities.hpp"
 #include "glow.hpp"
 #include "illuminance.hpp"
 #include "moment_gather.hpp"
@@ -40,6 +41,7 @@ public:
     /// Does a part of the work towards them.
     Progress step();
     const SkyView& view() const { return view_; }
+    const CityLight& cityLight() const { return cityView_; }
     SceneGeometry geometry() const;
     /// For hosts that ask: follows some lines of aerial perspective for the tables, which must be there; true once all is done.
     bool aerialStep();
@@ -58,6 +60,7 @@ private:
     double sunRadius() const;
     void followSunlight();
     ViewTable glow() const;
+    bool lightCities();
     SkyView gathered(LayersUsed layers);
     ViewTable undimmedWhole() const;
     Progress eclipseStep();
@@ -74,6 +77,8 @@ private:
     std::unique_ptr<MomentGather> gather_;
     std::unique_ptr<TextureLookup> lookup_;
     std::unique_ptr<Glow> glow_; ///< once light pollution has been asked for
+    std::unique_ptr<Cities> cities_; ///< once there are some
+    CityLight cityView_;
     std::unique_ptr<Aerial> aerial_;             ///< once a host has asked for it
     std::optional<SceneSettings> aerialSettings_; ///< that it is for
     SceneSettings settings_;

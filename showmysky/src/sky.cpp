@@ -66,6 +66,7 @@ struct Sky::Inside {
         if (!scene.ready() || uploaded == scene.version())
             return;
         painter->setSky(scene.view(), scene.geometry());
+        painter->setCities(scene.cityLight());
         uploaded = scene.version();
     }
     /// Does a part of the work; true once all is done.

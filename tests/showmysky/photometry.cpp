@@ -229,7 +229,8 @@ TEST_CASE("photometry: bad arguments and models are refused with a sentence")
     for (const Photometer::View view : {Photometer::View{-1, 0, 0, 0, 0}, {nan, 0, 0, 0, 0}, {0, 4, 0, 0, 0}, {0, 0, nan, 0, 0},
                                         {0, 0, 0, -0.1, 0}, {0, 0, 0, nan, 0}})
         CHECK(kindOf([&] { fast().radiance(view, Photometer::wholeSky, spectrum.data()); }) == ErrorKind::settings);
-    CHECK(kindOf([&] { fast().radiance({}, Photometer::lightPollution, spectrum.data()); }) == ErrorKind::unsupported);
+    const Photometer::View up;
+    CHECK(kindOf([&] { fast().cityRadiance(&up, 1, {{0, 0, -1, 1, {}}}, spectrum.data()); }) == ErrorKind::settings);
     CHECK(kindOf([&] { fast().radiance({}, 64, spectrum.data()); }) == ErrorKind::settings);
     CHECK(kindOf([] { Photometer("no such directory"); }) == ErrorKind::model);
 
@@ -265,7 +266,13 @@ TEST_CASE("photometry: plain C answers the same and fails by status")
     CHECK(showmysky_photometer_radiance(p, nullptr, 1, 7, spectra.data()) == SHOWMYSKY_PHOTOMETRY_BAD_ARGUMENT);
     CHECK(showmysky_photometer_radiance(p, nullptr, 0, 7, nullptr) == SHOWMYSKY_PHOTOMETRY_OK);
     CHECK(showmysky_photometer_radiance(nullptr, views, 1, 7, spectra.data()) == SHOWMYSKY_PHOTOMETRY_BAD_ARGUMENT);
-    CHECK(showmysky_photometer_radiance(p, views, 1, 8, spectra.data()) == SHOWMYSKY_PHOTOMETRY_UNSUPPORTED);
+    CHECK(showmysky_photometer_radiance(p, views, 1, SHOWMYSKY_LIGHT_POLLUTION, spectra.data()) == SHOWMYSKY_PHOTOMETRY_OK);
+    CHECK(showmysky_photometer_radiance(p, views, 1, 64, spectra.data()) == SHOWMYSKY_PHOTOMETRY_BAD_ARGUMENT);
+    const showmysky_city bad{1e3, 0, 1e3, -1, nullptr, 0};
+    CHECK(showmysky_photometer_city_radiance(p, views, 1, &bad, 1, spectra.data()) == SHOWMYSKY_PHOTOMETRY_BAD_ARGUMENT);
+    CHECK(showmysky_photometer_city_radiance(p, views, 1, nullptr, 1, spectra.data()) == SHOWMYSKY_PHOTOMETRY_BAD_ARGUMENT);
+    CHECK(showmysky_photometer_city_radiance(p, views, 1, nullptr, 0, spectra.data()) == SHOWMYSKY_PHOTOMETRY_OK);
+    CHECK(spectra[0] == 0);
     CHECK(showmysky_photometer_transmittance(p, -5, 0, spectra.data()) == SHOWMYSKY_PHOTOMETRY_BAD_ARGUMENT);
     CHECK(showmysky_photometer_sun_irradiance(p, 0, 1, nullptr) == SHOWMYSKY_PHOTOMETRY_BAD_ARGUMENT);
     CHECK(showmysky_photometer_horizontal_irradiance(p, 0, 1, spectra.data(), nullptr) == SHOWMYSKY_PHOTOMETRY_OK);

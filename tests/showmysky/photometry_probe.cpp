@@ -75,6 +75,31 @@ TEST_CASE("probe: textures give luminance near that of the moments")
     CHECK(std::stod(split(lines.at(1), ',').at(6)) == Approx(expected.Y).epsilon(0.03)); // a small model's textures
 }
 
+TEST_CASE("probe: light pollution is answered from both sources, and cities are added to what was asked for")
+{
+    const std::string questions = std::string(header) + "2000,170,0,60,120\n";
+    const showmysky::Photometer photometer(SHOWMYSKY_TEST_MODEL);
+    const double degree = std::acos(-1.) / 180;
+    const showmysky::Photometer::View view{2000, 170 * degree, 0, 60 * degree, 120 * degree};
+    const auto glow = photometer.luminance(view, showmysky::Photometer::lightPollution);
+    const auto textures = probe(questions, {"--source", "textures", "--layers", "light-pollution"});
+    INFO(textures.error);
+    REQUIRE(textures.exitCode == 0);
+    CHECK(std::stod(split(split(textures.output, '\n').at(1), ',').at(6)) == Approx(glow.Y).epsilon(0.01));
+
+    const std::vector<showmysky::City> cities{{20e3, 90 * degree, 3e3, 2, {}}, {9e3, 150 * degree, 3e3, 1, {}}};
+    std::vector<double> light(photometer.wavelengthsNm().size()), own(light.size());
+    photometer.radiance(view, showmysky::Photometer::lightPollution, own.data());
+    photometer.cityRadiance(&view, 1, cities, light.data());
+    const auto both = probe(questions, {"--layers", "light-pollution", "--city", "distance=20km,azimuth=90,radius=3km,luminance=2",
+                                        "--city", "distance=9000 m, azimuth=150, radius=3km"});
+    INFO(both.error);
+    REQUIRE(both.exitCode == 0);
+    const auto values = split(split(both.output, '\n').at(1), ',');
+    for (const std::size_t w : {std::size_t(3), light.size() - 1})
+        CHECK(std::stod(values.at(5 + w)) == Approx(own[w] + light[w]).epsilon(1e-5));
+}
+
 TEST_CASE("probe: bad rows are named by line and column")
 {
     const auto outcome = probe(std::string(header) + "0,30,0,45\n0,x,0,45,90\n-1,30,0,45,90\n0,30,,45,90\n0,30,0,181,90\n"
@@ -104,7 +129,9 @@ TEST_CASE("probe: bad headers and options are refused with a sentence")
     refused(probe("moon_zenith_deg,moon_azimuth_deg,earth_moon_distance_m," + std::string(header) + "30,0,384400e3,0,30,0,45,90\n",
                   {"--source", "textures"}),
             "hold no eclipses");
-    refused(probe(std::string(header) + "0,30,0,45,90\n", {"--layers", "light-pollution"}), "no light pollution");
+    refused(probe(std::string(header) + "0,30,0,45,90\n", {"--city", "distance=5 miles"}), "of metres, or of kilometres with km");
+    refused(probe(std::string(header) + "0,30,0,45,90\n", {"--city", "radus=5km"}), "Did you mean `radius`?");
+    refused(probe(std::string(header) + "0,30,0,45,90\n", {"--city", "radius=5km,radius=6km"}), "given twice");
     refused(probe(header, {"--layers", "singel"}), "Did you mean `single`?");
     refused(probe(header, {"--source", "guess"}), "moments, textures or cpu");
     refused(runProgram({"probe", SHOWMYSKY_TEST_MODEL}), "needs a CSV file");

@@ -5,6 +5,7 @@
 #ifndef SHOWMYSKY_PHOTOMETRY_H
 #define SHOWMYSKY_PHOTOMETRY_H
 
+#include "showmysky/city.h"
 #include "showmysky/export.h"
 #include <stddef.h>
 
@@ -67,6 +68,9 @@ SHOWMYSKY_API int showmysky_photometer_eclipsed_radiance(const showmysky_photome
 /* Share of the Sun's disc that the Moon hides at the camera, 0..1. */
 SHOWMYSKY_API int showmysky_photometer_obscuration(const showmysky_photometer* photometer, const showmysky_view* view,
                                                    const showmysky_moon* moon, double* share);
+/* Light of cities alone: [count][wavelengths], W m^-2 sr^-1 nm^-1. */
+SHOWMYSKY_API int showmysky_photometer_city_radiance(const showmysky_photometer* photometer, const showmysky_view* views, size_t count,
+                                                     const showmysky_city* cities, size_t city_count, double* spectra);
 /* [count][4]: X, Y, Z, scotopic, cd m^-2. */
 SHOWMYSKY_API int showmysky_photometer_luminance(const showmysky_photometer* photometer, const showmysky_view* views, size_t count,
                                                  unsigned layers, double* xyz_scotopic);

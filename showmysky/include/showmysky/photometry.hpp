@@ -77,6 +77,11 @@ public:
     /// Share of the Sun's disc that the Moon hides at the camera, 0..1; the view's direction and the horizon play no part.
     double obscuration(const View& view, const Moon& moon) const;
 
+    /// Light of cities alone, the discs in direct view included: [count][wavelengths]. The first question about a radius takes a second
+    /// or two. Cities are counted from the point below each view's camera, their azimuths as the views'.
+    ///   throws  settings
+    void cityRadiance(const View* views, std::size_t count, const std::vector<City>& cities, double* spectra) const;
+
     /// Colour and brightness of a view, cd m^-2.
     Colour luminance(const View& view, unsigned layers = wholeSky) const;
 

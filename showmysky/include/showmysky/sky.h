@@ -5,6 +5,7 @@
 #ifndef SHOWMYSKY_SKY_H
 #define SHOWMYSKY_SKY_H
 
+#include "showmysky/city.h"
 #include "showmysky/export.h"
 #include <stddef.h>
 
@@ -39,6 +40,8 @@ typedef struct showmysky_scene {
     size_t solar_spectrum_factor_count;
     int eclipse_orders;                /* scatterings followed through the shadow; 0: as many as the model has */
     int eclipse_fine, limb_darkening;  /* 0 or 1 */
+    const showmysky_city* cities;      /* part of the layer light_pollution; null where there are none */
+    size_t city_count;
 } showmysky_scene;
 
 typedef struct showmysky_camera {
