@@ -10,6 +10,7 @@
 #include "atmo/parse.hpp"
 #include "base/error.hpp"
 #include "model/medium_tables.hpp"
+#include "ground_light.hpp"
 #include "progress.hpp"
 #include "reference_queries.hpp"
 #include "solver/medium_tables.hpp"
@@ -69,6 +70,10 @@ public:
             ->option_text("X");
         sub->add_option("--seconds", seconds_, "Time for all rows together; the noisiest get the most. Default: no limit")
             ->option_text("T");
+        sub->add_option("--ground-light", groundLight_,
+                        "Light of a glowing ground in place of the Sun's, as a share of its\nradiance: all, or "
+                        "distance=M,radius=M[,azimuth=DEG] for a disc")
+            ->option_text("all|DISC");
         sub->add_option("--orders", orders_, "Scattering orders, or all. Default: those of the atmosphere")
             ->option_text("N");
         sub->add_option("--seed", seed_, "Of the random numbers. Default 1")->option_text("N");
@@ -92,17 +97,24 @@ public:
         if (!relativeError_.empty())
             settings.relativeError = readFraction("--relative-error", relativeError_);
 
+        std::optional<montecarlo::GroundDisc> disc;
+        if (!groundLight_.empty())
+            disc = readGroundLight("--ground-light", groundLight_);
+
         const auto reporter = makeReporter(request.progress, request.quiet, standardError());
         reporter->stage("medium", 0);
         Atmosphere atmosphere = std::filesystem::is_directory(atmosphere_) ? readModel(atmosphere_)
                                                                            : readDescription(atmosphere_, request.gl, *reporter);
         if (atmosphere.name.empty())
             atmosphere.name = nameFromPath();
-        settings.orders = orders_.empty() ? atmosphere.orders : orders_ == "all" ? 0 : readInteger("--orders", orders_, 1, 1000);
+        const int usualOrders = groundLight_.empty() ? atmosphere.orders : 0; // light pollution has all of them
+        settings.orders = orders_.empty() ? usualOrders : orders_ == "all" ? 0 : readInteger("--orders", orders_, 1, 1000);
         const std::vector<montecarlo::Query> queries = readAllQueries(atmosphere);
         const montecarlo::Reference reference(atmosphere.medium);
         reporter->stage("reference", 0.01);
-        const auto results = judge(reference, queries, settings, [&](double f) { reporter->advance(0.01 + 0.99 * f); });
+        const auto advance = [&](double f) { reporter->advance(0.01 + 0.99 * f); };
+        const auto results = groundLight_.empty() ? judge(reference, queries, settings, advance)
+                                                  : judgeGroundLight(reference, queries, disc, settings, advance);
         reporter->finished();
         std::vector<montecarlo::Row> rows;
         for (std::size_t i = 0; i < queries.size(); ++i)
@@ -149,7 +161,7 @@ private:
             throw FileError("Can't write `" + output_ + "`.");
     }
 
-    std::string atmosphere_, queries_, grid_, output_, relativeError_, orders_;
+    std::string atmosphere_, queries_, grid_, output_, relativeError_, orders_, groundLight_;
     double seconds_ = 0;
     std::uint64_t seed_ = 1;
 };

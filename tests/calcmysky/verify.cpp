@@ -235,6 +235,8 @@ TEST_CASE("verify and reference: what to look at must be said")
     CHECK_THAT(complaint({"reference", "m"}), Contains("Where to look?"));
     CHECK_THAT(complaint({"reference", "m", "q.csv", "--grid", "default"}), Contains("Where to look?"));
     CHECK_THAT(complaint({"reference", "m", "--grid", "fine"}), Contains("--grid"));
+    CHECK_THAT(complaint({"reference", "m", "q.csv", "--ground-light", "distance=5km"}), Contains("needs a radius"));
+    CHECK_THAT(complaint({"reference", "m", "q.csv", "--ground-light", "radus=5km"}), Contains("Did you mean `radius`?"));
 }
 
 TEST_CASE("verify finds a good model good, and reference answers its own table", "[gl][slow]")
