@@ -2,10 +2,13 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "physics/harmonics.hpp"
+#include "physics/series.hpp"
 #include <algorithm>
 #include <cmath>
 
 namespace sky::solver {
+
+using physics::geometricTail;
 
 namespace {
 
@@ -172,14 +175,6 @@ void add(std::vector<double>& to, const std::vector<double>& what, double factor
         to[i] += factor * what[i];
 }
 
-/// What all later events will add to a value, from the last two: events die out as a geometric series once only their slowest
-/// mode is left.
-double tail(double last, double before)
-{
-    const double ratio = before > 0 ? std::clamp(last / before, 0., 0.999) : 0.;
-    return ratio / (1 - ratio) * last;
-}
-
 /// Largest relative difference that the last event made to the estimate of the whole, over wavelengths, levels and Suns that
 /// light the air at all. `closed`: the estimate includes the tail; else it is the sum so far.
 double change(const Sums& total, const Sums& last, const Sums& before, const Sums& earlier, bool closed, int harmonics,
@@ -195,8 +190,8 @@ double change(const Sums& total, const Sums& last, const Sums& before, const Sum
             const double sum = total.moments[i + w], added = last.moments[i + w];
             if (sum <= 1e-7 * brightest)
                 continue;
-            const double now = closed ? sum + tail(added, before.moments[i + w]) : sum;
-            const double then = closed ? sum - added + tail(before.moments[i + w], earlier.moments[i + w]) : sum - added;
+            const double now = closed ? sum + geometricTail(added, before.moments[i + w]) : sum;
+            const double then = closed ? sum - added + geometricTail(before.moments[i + w], earlier.moments[i + w]) : sum - added;
             largest = std::max(largest, std::abs(now - then) / now);
         }
     return largest;
@@ -244,13 +239,13 @@ RadiationField iterate(const gl::Api& api, const Scene& scene, const physics::Mo
         for (std::size_t i = 0; i < total.moments.size(); i += std::size_t(harmonics) * wavelengths)
             for (int w = 0; w < wavelengths; ++w) {
                 // The tail has the shape of the last event in all harmonics.
-                const double scale = tail(last.moments[i + w], before.moments[i + w]) / std::max(last.moments[i + w], 1e-300);
+                const double scale = geometricTail(last.moments[i + w], before.moments[i + w]) / std::max(last.moments[i + w], 1e-300);
                 for (int lm = 0; lm < harmonics; ++lm)
                     total.moments[i + lm * wavelengths + w] += scale * last.moments[i + lm * wavelengths + w];
             }
         auto& closing = field.irradiance.back(); // orders beyond the last count with it
         for (std::size_t i = 0; i < total.irradiance.size(); ++i) {
-            const double rest = tail(last.irradiance[i], before.irradiance[i]);
+            const double rest = geometricTail(last.irradiance[i], before.irradiance[i]);
             total.irradiance[i] += rest;
             closing[i] += rest;
         }
