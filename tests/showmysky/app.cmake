@@ -3,7 +3,7 @@ find_package(CLI11 CONFIG REQUIRED)
 set(app ${PROJECT_SOURCE_DIR}/showmysky/app)
 file(GLOB appSources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/app/*.cpp)
 add_executable(test_showmysky_app ${appSources} ${app}/blue_noise.cpp ${app}/developer.cpp ${app}/picture.cpp
-    ${app}/scene_fields.cpp ${app}/scene_file.cpp ${app}/scene_options.cpp ${app}/solar_spectrum.cpp)
+    ${app}/city_option.cpp ${app}/scene_fields.cpp ${app}/scene_file.cpp ${app}/scene_options.cpp ${app}/solar_spectrum.cpp)
 foreach(part computation input places preferences watch) # of the window, what needs none
     target_sources(test_showmysky_app PRIVATE ${app}/preview/${part}.cpp)
 endforeach()
