@@ -69,7 +69,7 @@ TEST_CASE("ground glow: flat air that does not absorb lets out all that a black 
             const Glow glow(sky::test::layer(depth, 1, albedo, sky::test::rayleighPhase), settings);
             const double kept = glow.field.total.groundIrradiance[0] * (1 - albedo);
             INFO("optical depth " << depth << ", albedo " << albedo);
-            CHECK(glow.flux(1000) == Approx(pi - kept).epsilon(depth < 2 ? 0.002 : 0.006)); // levels, nodes, directions
+            CHECK(glow.flux(1000) == Approx(pi - kept).epsilon(depth < 2 ? 0.002 : 0.02)); // levels, nodes, directions
         }
 }
 

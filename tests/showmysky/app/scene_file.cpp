@@ -39,6 +39,7 @@ TEST_CASE("scene file: every setting comes back as it was written")
     scene.yaw = -17;
     scene.pitch = 89;
     scene.lightPollution = 20;
+    scene.cities = {{50e3, 30, 5e3, 2, {1, 2.5}}, {12e3, -170, 1e3, 0.5, {}}};
     scene.layers = {"sun", "single"};
     scene.hiddenScatterers = {"molecules", "aerosols"};
     scene.solarSpectrum = {SolarSpectrum::Kind::blackBody, 3500, {}};
