@@ -20,12 +20,14 @@ vec4 sunDisc(vec3 direction, float elevation, float angle, float pixel)
 {
     float cover = clamp((sunRadius - angle) / max(pixel, 1e-7) + 0.5, 0.0, 1.0);
     // The Moon takes its part of a pixel first: where both limbs cross one, nothing shines through between them.
-    if (moonRadius > 0.0)
+    if (WHOLE_TURN && moonRadius > 0.0)
         cover -= clamp((moonRadius - angleBetween(direction, moonDirection)) / max(pixel, 1e-7) + 0.5, 0.0, 1.0);
     if (cover <= 0.0)
         return vec4(0.0);
     float x = min(angle / sunRadius, 1.0);
-    vec4 limb = (1.0 + 0.5 * limbExponents) * pow(vec4(max(1.0 - x * x, 1e-6)), 0.5 * limbExponents);
+    vec4 limb = vec4(1.0);
+    if (WHOLE_TURN) // limb darkening goes with eclipses
+        limb = (1.0 + 0.5 * limbExponents) * pow(vec4(max(1.0 - x * x, 1e-6)), 0.5 * limbExponents);
     float u = clamp((elevation - elevationOf(sunDirection.z)) / sunRadius * 0.5 + 0.5, 0.0, 1.0) * float(SUN_COLOURS - 1);
     int k = min(int(u), SUN_COLOURS - 2);
     return cover * limb * mix(sunColours[k], sunColours[k + 1], u - float(k));
@@ -47,7 +49,10 @@ void main()
     }
     float elevation = elevationOf(direction.z);
     lookIntoMirror(direction, elevation);
-    result = skyLight(direction, elevation) + cityLight(direction, elevation);
+    result = skyLight(direction, elevation);
+#ifdef CITIES
+    result += cityLight(direction, elevation);
+#endif
     if (sunRadius > 0.0 && elevation >= horizon)
         result += sunDisc(direction, elevation, angleBetween(direction, sunDirection), pixelAngle);
     result = min(result, vec4(largest));

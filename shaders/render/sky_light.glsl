@@ -9,7 +9,10 @@ uniform float horizon;
 uniform vec2 inverseRanges;
 uniform vec2 tableSize;
 uniform float phaseWidth;
+#ifndef WHOLE_TURN // a program made for either case knows it; branches that never run still cost a software driver time
 uniform bool wholeTurn;               // an eclipse: azimuths all around, rows and columns gathered at the Sun
+#define WHOLE_TURN wholeTurn
+#endif
 uniform vec4 viewFocus;
 uniform vec3 azimuthFocus;
 uniform bool mirror;
@@ -26,7 +29,7 @@ void lookIntoMirror(inout vec3 direction, inout float elevation)
 // Luminance of a direction (unit vector); `shares`: how much of each table's light counts.
 vec4 skyLight(vec3 direction, float elevation, vec4 shares[SCATTERERS + 1])
 {
-    SkyViewAxes axes = SkyViewAxes(sunDirection, horizon, inverseRanges, tableSize, wholeTurn, viewFocus, azimuthFocus);
+    SkyViewAxes axes = SkyViewAxes(sunDirection, horizon, inverseRanges, tableSize, WHOLE_TURN, viewFocus, azimuthFocus);
     SkyViewPlace place = placeInSkyView(axes, direction, elevation);
     const float tables = float(SCATTERERS + 1);
     vec4 light = shares[0] * tableScales[0] * texture(skyTables, skyViewCoordinate(axes, place, 0.0, tables));

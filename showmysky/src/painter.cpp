@@ -17,11 +17,14 @@ namespace {
 constexpr GLuint tablesUnit = 0, phasesUnit = 1, directionsUnit = 2, cityAirUnit = 3, cityDiscsUnit = 4;
 constexpr double pi = 3.14159265358979323846;
 
-gl::Program buildProgram(const gl::Api& api, int scatterers, const Options& options)
+gl::Program buildProgram(const gl::Api& api, int scatterers, const Options& options, bool eclipse, bool cities)
 {
     std::vector<gl::Define> defines = Painter::lightDefines(scatterers);
     defines.push_back({"SUN_COLOURS", std::to_string(sunColourCount)});
     defines.push_back({"CITY_COLOURS", std::to_string(cityColourCount)});
+    defines.push_back({"WHOLE_TURN", eclipse ? "true" : "false"});
+    if (cities)
+        defines.push_back({"CITIES", "1"});
     const bool host = !options.viewDirectionFunction.empty();
     const std::string builtIn = "render/projections.glsl";
     const gl::Snippet projection{"viewDirection",
@@ -50,6 +53,18 @@ std::array<float, 3> asFloats(const std::array<double, 3>& v)
     return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
 }
 
+void apply(gl::Program& program, const std::string& name, const UniformValue& value)
+{
+    std::visit(
+        [&](const auto& v) {
+            if constexpr (std::is_same_v<std::decay_t<decltype(v)>, std::vector<Texel>>)
+                program.setVec4s(name, v);
+            else
+                program.set(name, v);
+        },
+        value);
+}
+
 std::size_t bytesOf(const gl::Texture& texture)
 {
     const bool half = texture.format() == gl::TextureFormat::rgba16f;
@@ -66,7 +81,7 @@ std::vector<gl::Define> Painter::lightDefines(int scatterers)
 
 Painter::Painter(const gl::Api& api, int scatterers, const std::vector<Texel>& phases, const Options& options)
     : api_(api), half_(options.halfFloats || api.isEs()), hostProjection_(!options.viewDirectionFunction.empty()),
-      scatterers_(scatterers), program_(buildProgram(api, scatterers, options)), triangle_(api, "sky triangle"),
+      scatterers_(scatterers), program_(buildProgram(api, scatterers, options, false, false)), options_(options), triangle_(api, "sky triangle"),
       phases_(api, "phase functions", formatOf(half_), phaseWidth, static_cast<int>(phases.size()) / phaseWidth),
       tables_(api, "sky tables", formatOf(half_), drawnAzimuths, 2 * drawnHalfViews * (scatterers + 1)),
       cityAir_(api, "air above cities", formatOf(half_), 1, 1), cityDiscs_(api, "cities", gl::TextureFormat::rgba32f, 1, 1),
@@ -76,12 +91,31 @@ Painter::Painter(const gl::Api& api, int scatterers, const std::vector<Texel>& p
     phases_.upload(flat(phases));
     directionTarget_.attach(0, direction_);
     light_["phaseWidth"] = static_cast<float>(phaseWidth);
-    program_.set("largest", half_ ? 65504.f : 3e38f);
+    set("largest", half_ ? 65504.f : 3e38f);
     gl::checkErrors(api_, "preparing to draw the sky");
+}
+
+void Painter::makeFor(bool eclipse, bool cities)
+{
+    if (eclipse == eclipse_ && cities == withCities_)
+        return;
+    program_ = buildProgram(api_, scatterers_, options_, eclipse, cities);
+    eclipse_ = eclipse;
+    withCities_ = cities;
+    for (const auto* uniforms : {&light_, &own_})
+        for (const auto& [name, value] : *uniforms)
+            apply(program_, name, value);
+}
+
+void Painter::set(const std::string& name, const UniformValue& value)
+{
+    own_[name] = value;
+    apply(program_, name, value);
 }
 
 void Painter::setSky(const SkyView& view, const SceneGeometry& geometry)
 {
+    makeFor(view.eclipse, withCities_);
     // Each table is stored over its largest value: half floats then serve noon and night alike.
     std::vector<float> texels;
     std::vector<std::array<float, 4>> scales;
@@ -119,23 +153,17 @@ void Painter::setSky(const SkyView& view, const SceneGeometry& geometry)
                                                     inverseRange(pi / 2 + geometry.horizon)};
     light_["mirror"] = geometry.mirror ? 1 : 0;
     for (const auto& [name, value] : light_)
-        std::visit(
-            [&, &name = name](const auto& v) {
-                if constexpr (std::is_same_v<std::decay_t<decltype(v)>, std::vector<Texel>>)
-                    program_.setVec4s(name, v);
-                else
-                    program_.set(name, v);
-            },
-            value);
-    program_.setVec4s("sunColours", geometry.sunColours);
-    program_.set("sunRadius", static_cast<float>(geometry.sunRadius));
-    program_.set("dipTangent", static_cast<float>(geometry.dipTangent));
+        apply(program_, name, value);
+    set("sunColours", std::vector<Texel>(geometry.sunColours.begin(), geometry.sunColours.end()));
+    set("sunRadius", static_cast<float>(geometry.sunRadius));
+    set("dipTangent", static_cast<float>(geometry.dipTangent));
 }
 
 void Painter::setCities(const CityLight& light)
 {
     cities_ = static_cast<int>(light.discs.size());
-    program_.set("cityCount", cities_);
+    makeFor(eclipse_, cities_ > 0);
+    set("cityCount", cities_);
     if (cities_ == 0)
         return;
     float largest = 1e-30f;
@@ -157,8 +185,8 @@ void Painter::setCities(const CityLight& light)
     cityDiscs_.setFilter(gl::Filter::nearest);
     cityAir_.upload(air);
     cityDiscs_.upload(discs);
-    program_.set("cityScale", largest);
-    program_.set("cityTableSize", std::array<float, 2>{static_cast<float>(light.air.azimuths), static_cast<float>(light.air.halfViews)});
+    set("cityScale", largest);
+    set("cityTableSize", std::array<float, 2>{static_cast<float>(light.air.azimuths), static_cast<float>(light.air.halfViews)});
 }
 
 void Painter::setAxes(const SkyView& view, const SceneGeometry& geometry)
@@ -167,14 +195,14 @@ void Painter::setAxes(const SkyView& view, const SceneGeometry& geometry)
     const SkyAxes axes{geometry.horizon, view.eclipse, sunElevation};
     const auto focus = axes.focus(0);
     const auto columns = axes.azimuthFocus();
-    light_["wholeTurn"] = view.eclipse ? 1 : 0;
+    light_["wholeTurn"] = view.eclipse ? 1 : 0; // hosts have one program for both
     light_["viewFocus"] = std::array<float, 4>{static_cast<float>(focus.share), static_cast<float>(focus.sun),
                                                 static_cast<float>(focus.offset), static_cast<float>(focus.scale)};
     light_["azimuthFocus"] = std::array<float, 3>{static_cast<float>(columns[0]), static_cast<float>(columns[1]),
                                                   static_cast<float>(columns[2])};
-    program_.set("moonDirection", asFloats(geometry.moonDirection));
-    program_.set("moonRadius", static_cast<float>(geometry.eclipse ? geometry.moonRadius : 0));
-    program_.set("limbExponents", geometry.limbExponents);
+    set("moonDirection", asFloats(geometry.moonDirection));
+    set("moonRadius", static_cast<float>(geometry.eclipse ? geometry.moonRadius : 0));
+    set("limbExponents", geometry.limbExponents);
 }
 
 void Painter::setCamera(const Camera& camera, int width, int height)

@@ -61,6 +61,9 @@ public:
     int fetchesPerPixel() const;
 
 private:
+    /// Remakes the program where the sky now needs another one. Uniforms keep their values.
+    void makeFor(bool eclipse, bool cities);
+    void set(const std::string& name, const UniformValue& value);
     void setAxes(const SkyView& view, const SceneGeometry& geometry);
     void setCamera(const Camera& camera, int width, int height);
 
@@ -68,7 +71,9 @@ private:
     bool half_, hostProjection_;
     int scatterers_;
     sky::gl::Program program_;
-    Uniforms light_;
+    Uniforms light_, own_; // what the program's uniforms are set to
+    Options options_;
+    bool eclipse_ = false, withCities_ = false; // what the program is made for
     sky::gl::VertexArray triangle_;
     sky::gl::Texture2D phases_, tables_, cityAir_, cityDiscs_;
     int cities_ = 0;
