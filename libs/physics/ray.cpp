@@ -1,7 +1,6 @@
 #include "physics/ray.hpp"
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace sky::physics {
 
@@ -140,7 +139,7 @@ SeenColumns RayTracer::seen(const double altitude, const double mu, const bool h
     return result;
 }
 
-RayNodes RayTracer::trace(const double altitude, const double mu, const int count, const bool hits, const bool diffuse)
+RayNodes RayTracer::trace(const double altitude, const double mu, const int count, const bool hits)
 {
     walk(altitude, mu, hits);
     const auto& p = profile_.planet();
@@ -180,15 +179,12 @@ RayNodes RayTracer::trace(const double altitude, const double mu, const int coun
         turned += std::abs(spread(p, altitudes_[c + 1]) - spread(p, altitudes_[c]));
     }
 
-    // Nodes at equal steps of a mixed measure: where the light comes from, altitude, and length. Direct light needs them wherever the
-    // shadow's edge may be; for diffuse light the first counts for more the less one sees through, lest a cloud leave most behind it.
-    const double lost = 1 - std::accumulate(transmittance.begin(), transmittance.end(), 0.) / wavelengths;
-    const double byLight = 0.3 + (diffuse ? 0.4 * lost * lost : 0), byAltitude = 2 / 7. * (1 - byLight), byLength = 5 / 7. * (1 - byLight);
+    // Nodes at equal steps of a mixed measure: where the light comes from, altitude, and length.
     for (int c = 0; c < cells; ++c) {
         const double light = total > 0 ? share[c] / total : 0;
         const double climb = turned > 0 ? std::abs(spread(p, altitudes_[c + 1]) - spread(p, altitudes_[c])) / turned : 0;
         const double way = (bounds_[c + 1] - bounds_[c]) / length;
-        measure[c + 1] = measure[c] + byLight * light + byAltitude * climb + byLength * way;
+        measure[c + 1] = measure[c] + 0.3 * light + 0.2 * climb + 0.5 * way;
     }
     std::vector<double> position(count, 0.);
     for (int k = 1, c = 0; k < count && cells > 0; ++k) {

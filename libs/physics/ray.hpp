@@ -45,8 +45,7 @@ public:
     /// Nodes and weights of the ray from `altitude` (0..top, m) in direction `mu`.
     ///   count       nodes, >= 2
     ///   hitsGround  whether the ray counts as hitting the ground: decided by the caller's half of a table, not by rounding
-    ///   diffuse     for light that was scattered before: more nodes where the light is seen
-    RayNodes trace(double altitude, double mu, int count, bool hitsGround, bool diffuse = false);
+    RayNodes trace(double altitude, double mu, int count, bool hitsGround);
 
     /// The same integrals, cumulated along the ray.
     SeenColumns seen(double altitude, double mu, bool hitsGround);

@@ -35,8 +35,8 @@ struct Scene {
     int scatterers() const { return static_cast<int>(optics.scatterers.size()); }
 };
 
-/// Traces rays on all cores.   diffuse  for light of later events, see RayTracer::trace
-std::vector<physics::RayNodes> traceRays(const Scene& scene, const std::vector<RayStart>& starts, int nodes, bool diffuse);
+/// Traces rays on all cores.
+std::vector<physics::RayNodes> traceRays(const Scene& scene, const std::vector<RayStart>& starts, int nodes);
 
 /// Rays for the light of the first event, in main memory.
 struct DirectRayData {
