@@ -1,6 +1,7 @@
 #pragma once
 // Eight wavelengths at a time: the compiler's vector type, and the exponential function on it.
 
+#include "base/lanes.hpp"
 #include <algorithm>
 #include <cstdint>
 #include <vector>
@@ -11,12 +12,6 @@ constexpr int count = 8;
 using Lanes = float __attribute__((vector_size(count * sizeof(float))));
 using Integers = std::int32_t __attribute__((vector_size(count * sizeof(std::int32_t))));
 
-// One function in the widest vectors that the machine has; elsewhere the compiler's default.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define SKY_WIDEST_VECTORS __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#else
-#define SKY_WIDEST_VECTORS
-#endif
 // No function with vectors as arguments is called across files: its ABI doesn't matter.
 #pragma GCC diagnostic ignored "-Wpsabi"
 // Helpers are compiled into each of its variants.

@@ -1,0 +1,30 @@
+#include "base/lanes.hpp"
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+using namespace sky;
+
+TEST_CASE("lanes: powers of two are good to 3e-7, and stop at the ends of floats")
+{
+    float worst = 0;
+    for (int i = -125999; i <= 125999; i += 7) {
+        const auto x = static_cast<float>(i) * 1e-3F;
+        worst = std::max(worst, static_cast<float>(std::abs(double(base::exp2Lane(x)) / std::exp2(double(x)) - 1)));
+    }
+    CHECK(worst < 3e-7F);
+    CHECK(base::exp2Lane(-1e30F) == base::exp2Lane(-126.F));
+    CHECK(base::exp2Lane(1e30F) == base::exp2Lane(126.F));
+    CHECK(base::exp2Lane(0.F) == 1.F);
+}
+
+TEST_CASE("lanes: logarithms are good to 2e-7 of 1 or of themselves")
+{
+    double worst = 0;
+    for (double x = 1e-37; x < 1e37; x *= 1.00037) {
+        const double truth = std::log2(double(static_cast<float>(x)));
+        worst = std::max(worst, std::abs(double(base::log2Lane(static_cast<float>(x))) - truth) / std::max(1., std::abs(truth)));
+    }
+    CHECK(worst < 2e-7);
+    CHECK(base::log2Lane(1.F) == 0.F);
+    CHECK(base::log2Lane(8.F) == 3.F);
+}
