@@ -8,7 +8,6 @@ namespace sky::model {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 
 const std::string irradianceTable = std::string(lightPollutionMoments) + "-ground-irradiance";
 
@@ -104,13 +103,9 @@ std::vector<double> GlowTable::slice(const double altitude) const
 
 void GlowTable::sample(const std::vector<double>& slice, const double altitude, const double viewElevation, double* const result) const
 {
-    const double horizon = physics::horizonElevation(planet_, altitude), angle = viewElevation - horizon;
-    const bool ground = angle < 0;
+    const auto [ground, position] = physics::viewPlace(planet_, altitude, views_, viewElevation);
     const int half = views_ / 2;
-    const double range = ground ? pi / 2 + horizon : pi / 2 - horizon;
-    const double t = std::asinh(std::min(range, std::abs(angle)) / physics::horizonAngleScale) /
-                     std::asinh(range / physics::horizonAngleScale);
-    const auto view = physics::uniformStencil(t * (half - 1), half);
+    const auto view = physics::uniformStencil(position, half);
     for (int c = 0; c < channels_; ++c) {
         std::array<double, 4> v{};
         for (int i = 0; i < 4; ++i)

@@ -105,13 +105,9 @@ void ScatteringTable::sample(const std::vector<float>& slice, const double altit
                              const double relativeAzimuth, double* const result) const
 {
     const physics::Planet planet{model_.manifest().planetRadius, model_.manifest().topOfAtmosphere};
-    const double horizon = physics::horizonElevation(planet, altitude), angle = viewElevation - horizon;
-    const bool ground = angle < 0;
+    const auto [ground, position] = physics::viewPlace(planet, altitude, views_, viewElevation);
     const int half = views_ / 2;
-    const double range = ground ? pi / 2 + horizon : pi / 2 - horizon;
-    const double t = std::asinh(std::min(range, std::abs(angle)) / physics::horizonAngleScale) /
-                     std::asinh(range / physics::horizonAngleScale);
-    const auto view = stencilOn(t * (half - 1), half);
+    const auto view = stencilOn(position, half);
     const double folded = std::abs(std::remainder(relativeAzimuth, 2 * pi));
     const auto azimuth = physics::mirroredStencil(folded / pi * (azimuths_ - 1), azimuths_);
     for (int c = 0; c < channels_; ++c) {

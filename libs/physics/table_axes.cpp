@@ -1,4 +1,5 @@
 #include "physics/table_axes.hpp"
+#include <algorithm>
 
 namespace sky::physics {
 
@@ -37,6 +38,15 @@ std::vector<double> viewMuNodes(const Planet& planet, const double altitude, con
     for (int k = 0; k < count / 2; ++k)
         mu.push_back(std::min(1., std::sin(horizon + above[k])));
     return mu;
+}
+
+ViewPlace viewPlace(const Planet& planet, const double altitude, const int count, const double elevation)
+{
+    const double horizon = horizonElevation(planet, altitude), angle = elevation - horizon;
+    const bool ground = angle < 0;
+    const double range = ground ? pi / 2 + horizon : pi / 2 - horizon;
+    const double t = std::asinh(std::min(range, std::abs(angle)) / horizonAngleScale) / std::asinh(range / horizonAngleScale);
+    return {ground, t * (count / 2 - 1)};
 }
 
 std::vector<double> sunElevationNodes(const Planet& planet, const double altitude, const double vDark, const int count)

@@ -20,6 +20,13 @@ constexpr double horizonAngleScale = 0.05;
 ///   returns  sine of the elevation (cosine of the view zenith angle), [count], increasing
 std::vector<double> viewMuNodes(const Planet& planet, double altitude, int count);
 
+/// Place of a view on that axis of `count` zenith angles: which half, and 0 .. count / 2 - 1 with a fraction, from the horizon on.
+struct ViewPlace {
+    bool ground;
+    double position;
+};
+ViewPlace viewPlace(const Planet& planet, double altitude, int count, double elevation);
+
 /// Elevations of the Sun of a table, rad, [count], increasing from the horizon's less `depth` to the zenith, counted from the
 /// geometric horizon of the altitude, because there the direct light goes out:
 ///     e - e_horizon = range sinh(a v) / sinh(a),  range = pi/2 - e_horizon,  a = sunTableScale,  v uniform from vDark to 1
