@@ -31,6 +31,18 @@ inline void bindSamples(gl::Program& program, const SunSamples& samples, Strides
     program.set("strides", std::array<int, 3>{strides.ray, strides.sun, strides.azimuth});
 }
 
+/// Uniforms that direct.comp and lit.comp share. Each scatterer's results are a block of `texels`.
+inline void bindScatterers(gl::Program& program, const Scene& scene, const std::vector<bool>& withPhase, int texels)
+{
+    program.set("elevations", scene.sun.elevationCount());
+    program.set("sunRadius", static_cast<float>(scene.medium.sunAngularRadius));
+    program.set("angles", static_cast<int>(scene.medium.scatteringAngles.size()));
+    for (std::size_t i = 0; i < withPhase.size(); ++i) {
+        program.set("withPhase[" + std::to_string(i) + "]", withPhase[i] ? 1 : 0);
+        program.set("resultOffsets[" + std::to_string(i) + "]", static_cast<int>(i) * texels);
+    }
+}
+
 /// Rays of one dispatch, for which `vec4sPerRay` are prepared each.
 inline int raysTogether(const gl::Api& api, const SunSamples& samples, int rays, int nodes, std::size_t vec4sPerRay)
 {

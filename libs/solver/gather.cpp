@@ -109,14 +109,7 @@ void DirectGather::gather(const DirectRays& rays, const SunSamples& samples, Str
     bind(program_, "weights", 4, rays.weights);
     bind(program_, "ground", 5, rays.ground);
     bind(program_, "phases", 6, phases_);
-    program_.set("elevations", scene_.sun.elevationCount());
-    program_.set("sunRadius", static_cast<float>(scene_.medium.sunAngularRadius));
-    program_.set("angles", static_cast<int>(scene_.medium.scatteringAngles.size()));
-    const int texels = rays.count * samples.suns * samples.azimuths;
-    for (std::size_t i = 0; i < withPhase.size(); ++i) {
-        program_.set("withPhase[" + std::to_string(i) + "]", withPhase[i] ? 1 : 0);
-        program_.set("resultOffsets[" + std::to_string(i) + "]", static_cast<int>(i) * texels);
-    }
+    bindScatterers(program_, scene_, withPhase, rays.count * samples.suns * samples.azimuths);
     results.bindStorage(0);
     const gl::Bound pass(program_);
     const std::size_t visits = std::size_t(samples.suns) * samples.azimuths * rays.nodes;

@@ -107,14 +107,7 @@ void LitGather::gather(const DirectRayData& rays, const SunSamples& samples, Str
     bind(program_, "lit", 3, *lit_);
     bind(program_, "phases", 4, phases_);
     program_.set("totalSets", scene_.sets());
-    program_.set("elevations", elevations);
-    program_.set("sunRadius", static_cast<float>(scene_.medium.sunAngularRadius));
-    program_.set("angles", static_cast<int>(scene_.medium.scatteringAngles.size()));
-    const int texels = rays.count * samples.suns * samples.azimuths;
-    for (std::size_t i = 0; i < withPhase.size(); ++i) {
-        program_.set("withPhase[" + std::to_string(i) + "]", withPhase[i] ? 1 : 0);
-        program_.set("resultOffsets[" + std::to_string(i) + "]", static_cast<int>(i) * texels);
-    }
+    bindScatterers(program_, scene_, withPhase, rays.count * samples.suns * samples.azimuths);
     results.bindStorage(0);
     const gl::Bound pass(program_);
     for (int first = 0; first < rays.count; first += chunk) {

@@ -4,8 +4,8 @@
 namespace sky::solver {
 
 /// Luminance of the first event along rays, for phase functions that don't depend on wavelength: the same light as
-/// DirectGather's for a fraction of its work, since wavelengths are summed once a ray (on the CPU, whose vectors do it ten times as
-/// fast as a software driver) and solve/lit.comp meets four numbers.
+/// DirectGather's for a fraction of its work, since wavelengths are summed once a ray (on the CPU, whose vectors suit it better than a
+/// software driver) and solve/lit.comp meets four numbers.
 class LitGather
 {
 public:
