@@ -102,34 +102,40 @@ Real leftByLune(Real a, Real b, Real d)
     return std::max(Real(0), area / Real(3.14159265358979323846));
 }
 
+template<class Real>
+struct Shares {
+    Real covered, left; // both to their own digits
+};
+
+template<class Real>
+Shares<Real> shares(const Discs<Real>& discs)
+{
+    const Real a = discs.sunRadius, b = discs.moonRadius, d = discs.separation;
+    if (d >= a + b)
+        return {0, 1};
+    if (d <= b - a)
+        return {1, 0};
+    if (d <= a - b)
+        return {std::min(Real(1), b / a * (b / a)), (a - b) / a * ((a + b) / a)};
+    const Real covered = coveredByLens(a, b, d);
+    if (covered < Real(0.5))
+        return {covered, 1 - covered};
+    const Real left = leftByLune(a, b, d);
+    return {std::min(Real(1), 1 - left), left};
+}
+
 } // namespace eclipse_detail
 
 template<class Real>
 Real coveredFraction(const Discs<Real>& discs)
 {
-    const Real a = discs.sunRadius, b = discs.moonRadius, d = discs.separation;
-    if (d >= a + b)
-        return 0;
-    if (d <= b - a)
-        return 1;
-    if (d <= a - b)
-        return std::min(Real(1), b / a * (b / a));
-    const Real covered = eclipse_detail::coveredByLens(a, b, d);
-    return covered < Real(0.5) ? covered : std::min(Real(1), 1 - eclipse_detail::leftByLune(a, b, d));
+    return eclipse_detail::shares(discs).covered;
 }
 
 template<class Real>
 Real visibleFraction(const Discs<Real>& discs)
 {
-    const Real a = discs.sunRadius, b = discs.moonRadius, d = discs.separation;
-    if (d >= a + b)
-        return 1;
-    if (d <= b - a)
-        return 0;
-    if (d <= a - b)
-        return (a - b) / a * ((a + b) / a);
-    const Real covered = eclipse_detail::coveredByLens(a, b, d);
-    return covered < Real(0.5) ? 1 - covered : eclipse_detail::leftByLune(a, b, d);
+    return eclipse_detail::shares(discs).left;
 }
 
 /// The shadow for one camera. `double` where it is made, `float` where many points are asked.
