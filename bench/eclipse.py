@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
-"""Total sky in eclipses against Monte Carlo: bench/eclipse.py BIN MODEL [SECONDS]
+"""Total sky in eclipses against Monte Carlo: bench/eclipse.py BIN MODEL [SECONDS] [--only NAME] [--every N]
 
-BIN holds calcmysky and showmysky; MODEL was computed with --radiance. Each case gets SECONDS (30) of Monte Carlo. Printed are, over 20
-directions of the sky and all wavelengths, the rms difference over the mean of the sky at each wavelength, without and with what the noise of the
+BIN holds calcmysky and showmysky; MODEL was computed with --radiance. Each case, or those whose name begins with NAME, gets SECONDS (30)
+of Monte Carlo. Printed are, over 20 directions (or every Nth of them, so that each gets more time) of the sky and all wavelengths, the rms difference over the mean of the sky at each wavelength, without and with what the noise of the
 reference explains, and the same of single scattering, which has no noise.
 """
+import argparse
 import csv
 import json
 import math
 import pathlib
 import subprocess
-import sys
 import tempfile
 
 CASES = [  # name, zenith angle of the Sun, Moon's zenith angle and azimuth minus the Sun's (degrees), distance (m)
@@ -41,17 +41,23 @@ def columns_of(binaries, model):
 
 
 def main():
-    binaries, model = pathlib.Path(sys.argv[1]), sys.argv[2]
-    seconds = sys.argv[3] if len(sys.argv) > 3 else "30"
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("binaries", type=pathlib.Path)
+    parser.add_argument("model")
+    parser.add_argument("seconds", nargs="?", default="30")
+    parser.add_argument("--only", default="")
+    parser.add_argument("--every", type=int, default=1)
+    options = parser.parse_args()
+    binaries, model, seconds = options.binaries, options.model, options.seconds
     columns = columns_of(binaries, model)
     irradiance = dict(zip(columns, manifest_of(binaries, model)["solarIrradiance"]))
     print(f"{'':24} {'rms':>8} {'noise':>8} {'rest':>8} {'single':>8}")
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
-        for name, sza, dz, da, distance in CASES:
+        for name, sza, dz, da, distance in (case for case in CASES if case[0].startswith(options.only)):
             judge = ["altitude_m,sza_deg,vza_deg,relaz_deg,lambda_nm,moon_zenith_deg,moon_azimuth_deg,earth_moon_distance_m"]
             probe = ["altitude_m,sun_zenith_deg,sun_azimuth_deg,view_zenith_deg,view_azimuth_deg,moon_zenith_deg,moon_azimuth_deg,earth_moon_distance_m"]
-            for vza, az in DIRECTIONS:
+            for vza, az in DIRECTIONS[:: options.every]:
                 moon = f"{sza + dz},{da},{distance}"
                 probe.append(f"0,{sza},0,{vza},{az},{moon}")
                 judge += [f"0,{sza},{vza},{az},{column[2:-2]},{moon}" for column in columns]

@@ -201,9 +201,9 @@ def campaign(options):
                     code, said = run([program, "verify", model, "--seconds", str(options.verify), "--json", report, "-q"],
                                      options.seconds + 6 * options.verify)
                     if code == 0:
-                        for line in json.load(open(report)).get("regimes", []):
-                            if line.get("altitude") in (None, "all") and line.get("rms") is not None:
-                                errors.append((line["rms"], number, line.get("regime", "")))
+                        for regime, part in json.load(open(report))["regimes"].items():
+                            if part["rows"] > 0:
+                                errors.append((part["rms_error"], number, regime))
                     else:
                         complaints.append(f"verify: exit code {code}: {said[-300:]}")
             failed += bool(complaints)
