@@ -33,6 +33,13 @@ std::vector<RayStart> viewsFrom(const BakeJob& job, double altitude, int first, 
     return starts;
 }
 
+/// Nodes along a ray of single scattering. They must resolve the edge of the shadow, but no finer than the table's Suns can show it:
+/// all of the quality's for 128 Suns, five eighths for 32.
+int directNodes(const BakeJob& job)
+{
+    return static_cast<int>(std::lround(job.settings.directNodes * std::min(1., 0.5 + job.size.sunZenithAngle / 256.)));
+}
+
 /// One layer of a table, gathered in as many groups of views as memory asks for.
 struct Layer {
     int views, suns, azimuths, viewsAtOnce;
@@ -174,7 +181,7 @@ void bakeSingleScattering(const gl::Api& api, const BakeJob& job, model::ModelWr
         const SunSamples samples = samplesOf(api, job, altitudes[layer]);
         for (int first = 0; first < shape.views; first += shape.viewsAtOnce) {
             const int count = std::min(shape.viewsAtOnce, shape.views - first);
-            const DirectRayData rays(job.scene, viewsFrom(job, altitudes[layer], first, count), job.settings.directNodes, false);
+            const DirectRayData rays(job.scene, viewsFrom(job, altitudes[layer], first, count), directNodes(job), false);
             const auto place = [&](Way way) {
                 const auto values = results.download();
                 const std::size_t floats = way == Way::spectra ? std::size_t(job.scene.sets()) * 4 : 4;

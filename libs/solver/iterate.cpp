@@ -14,8 +14,6 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 constexpr int mostEvents = 200;
-/// Fine suns per sun of the grid inside the iteration: its errors average out over directions.
-constexpr int sweepRefinement = 2;
 
 using physics::harmonicCount;
 using physics::harmonicIndex;

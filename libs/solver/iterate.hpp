@@ -5,6 +5,9 @@
 
 namespace sky::solver {
 
+/// Fine suns per sun of the grid inside the iteration: its errors average out over directions.
+constexpr int sweepRefinement = 2;
+
 /// When the iteration ends.
 struct OrderLimit {
     int orders = 4;          ///< of the light that is to be seen: the field needs one event less

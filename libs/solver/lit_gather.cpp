@@ -45,12 +45,17 @@ void sumNode(const float* __restrict near, const float* __restrict far, float fr
     }
 }
 
+/// X, Y, Z, scotopic to X / Y, log2 Y, Z / Y, scotopic / Y: one exponential brings all back. Where Y is none, so are the others.
 SKY_WIDEST_VECTORS
-void logarithms(const float* __restrict values, int count, float* __restrict result)
+void levelAndColour(const float* __restrict values, int count, float* __restrict result)
 {
-    for (int k = 0; k < count; ++k) {
-        const float logarithm = base::log2Lane(values[k] > faintest ? values[k] : 1.F);
-        result[k] = values[k] > faintest ? logarithm : dark;
+    for (int k = 0; k < count; ++k, values += 4, result += 4) {
+        const bool lit = values[1] > faintest;
+        const float y = lit ? values[1] : 1.F, inverse = 1 / y, logarithm = base::log2Lane(y);
+        result[0] = values[0] * inverse;
+        result[1] = lit ? logarithm : dark;
+        result[2] = values[2] * inverse;
+        result[3] = values[3] * inverse;
     }
 }
 
@@ -67,7 +72,7 @@ LitGather::LitGather(const gl::Api& api, const Scene& scene, const std::vector<s
         value *= -toLog2;
 }
 
-/// lit  [ray of this dispatch][node][elevation][scatterer][X, Y, Z, scotopic]: log2, without visible part of the disc and phase
+/// lit  [ray of this dispatch][node][elevation][scatterer][4], by levelAndColour, without visible part of the disc and phase
 void LitGather::sumWavelengths(const DirectRayData& rays, int first, int count, float* lit) const
 {
     const int elevations = scene_.sun.elevationCount(), wavelengths = scene_.sets() * 4, scatterers = scene_.scatterers();
@@ -85,7 +90,7 @@ void LitGather::sumWavelengths(const DirectRayData& rays, int first, int count, 
             const float* near = &logTransmittance_[std::size_t(place[2]) * elevations * wavelengths];
             sumNode(near, near + std::size_t(elevations) * wavelengths, place[3], channels.data(), elevations, wavelengths, scatterers,
                     light.data(), sums.data());
-            logarithms(sums.data(), elevations * scatterers * 4, lit + std::size_t(item) * sums.size());
+            levelAndColour(sums.data(), elevations * scatterers, lit + std::size_t(item) * sums.size());
         }
     });
 }

@@ -4,15 +4,18 @@
 #include "lib/angles.glsl"
 
 // Fraction of a uniform disc of angular radius `radius` above a straight edge; its centre stands `above` over it (rad).
-// Area of a circular segment. A Sun without extent is a step.
+// The smaller segment's share is y^(3/2) P(y) of its height y in radii; P by Chebyshev interpolation, error 2e-7 of the share.
+// A Sun without extent is a step.
 float visibleDiscFraction(float above, float radius)
 {
     if (above >= radius)
         return 1.0;
     if (above <= -radius)
         return 0.0;
-    float x = above / radius;
-    return clamp(0.5 + (x * sqrt(max(0.0, 1.0 - x * x)) + elevationOf(x)) / (2.0 * halfPi), 0.0, 1.0);
+    float y = 1.0 - abs(above) / radius;
+    float p = 6.00210956e-1 + y * (-9.00369308e-2 + y * (-7.98012091e-3 + y * (-1.79385596e-3 + y * (-5.49666396e-6 - y * 3.94456163e-4))));
+    float segment = y * sqrt(y) * p;
+    return above > 0.0 ? 1.0 - segment : segment;
 }
 
 // Scale of the elevation axis of the table of sunlight, rad; physics::SunTable::elevationScale.

@@ -24,17 +24,23 @@ vec4 cityGround(CityPlace place)
     return light;
 }
 
-vec4 cityLight(vec3 direction, float elevation)
+// Of the air, and of the ground as far as the air lights it.
+vec4 cityAirLight(CityPlace place, float elevation)
 {
-    if (cityCount == 0)
-        return vec4(0.0);
-    CityPlace place = placeAmongCities(direction, elevation, horizon, dipTangent);
     bool ground = elevation < horizon;
     float range = ground ? inverseRanges.y : inverseRanges.x;
     float view = clamp(inverseSinh(abs(elevation - horizon) / horizonAngleScale) * range, 0.0, 1.0);
     vec2 texel = vec2(place.azimuth / (4.0 * halfPi), view) * (cityTableSize - 1.0) + 0.5;
     if (ground)
         texel.y += cityTableSize.y;
-    vec4 air = cityScale * texture(cityAir, texel / vec2(cityTableSize.x, 2.0 * cityTableSize.y));
-    return ground ? air + cityGround(place) : air;
+    return cityScale * texture(cityAir, texel / vec2(cityTableSize.x, 2.0 * cityTableSize.y));
+}
+
+vec4 cityLight(vec3 direction, float elevation)
+{
+    if (cityCount == 0)
+        return vec4(0.0);
+    CityPlace place = placeAmongCities(direction, elevation, horizon, dipTangent);
+    vec4 air = cityAirLight(place, elevation);
+    return elevation < horizon ? air + cityGround(place) : air;
 }

@@ -48,8 +48,29 @@ precision highp sampler3D;
 #define aerialAt showmyskyAerialAt
 #define aerialPlaceOf showmyskyAerialPlaceOf
 #define AerialPlace ShowmyskyAerialPlace
+#define opacityOf showmyskyOpacityOf
+#define CityPlace ShowmyskyCityPlace
+#define placeAmongCities showmyskyPlaceAmongCities
+#define insideCity showmyskyInsideCity
+#define cityAir showmyskyCityAir
+#define cityDiscs showmyskyCityDiscs
+#define cityCount showmyskyCityCount
+#define cityScale showmyskyCityScale
+#define cityTableSize showmyskyCityTableSize
+#define dipTangent showmyskyDipTangent
+#define cityGround showmyskyCityGround
+#define cityLight showmyskyCityLight
+#define cityAirLight showmyskyCityAirLight
+#define sunColours showmyskySunColours
+#define sunRadius showmyskySunRadius
+#define moonDirection showmyskyMoonDirection
+#define moonRadius showmyskyMoonRadius
+#define limbExponents showmyskyLimbExponents
+#define sunDisc showmyskySunDisc
 
 #include "render/sky_light.glsl"
+#include "render/city_light.glsl"
+#include "render/sun_disc.glsl"
 #include "lib/geometry.glsl"
 #include "lib/aerial.glsl"
 
@@ -87,13 +108,29 @@ vec4 aerialAt(AerialPlace place, int table)
     return texture(aerial, vec3(place.row, depth));
 }
 
-// Luminance of the sky or the ground in a direction (of any length), the solar disc apart; cd m^-2.
+// Share of light that the air takes up to a place.
+vec4 opacityOf(AerialPlace place)
+{
+    return 1.0 - exp(-aerialAt(place, SCATTERERS + 1));
+}
+
+// Luminance of the sky or the ground in a direction (of any length), cities included, the solar disc apart; cd m^-2.
 vec4 showmyskyRadiance(vec3 direction)
 {
     vec3 unit = normalize(direction);
     float elevation = elevationOf(unit.z);
     lookIntoMirror(unit, elevation);
-    return skyLight(unit, elevation);
+    return skyLight(unit, elevation) + cityLight(unit, elevation);
+}
+
+// Luminance of the solar disc, through the air and beside the Moon, 0 where it isn't; `pixelAngle`: over how many rad its edge is smoothed.
+// A scene's switch for the disc plays no part.
+vec4 showmyskySolarDisc(vec3 direction, float pixelAngle)
+{
+    vec3 unit = normalize(direction);
+    float elevation = elevationOf(unit.z);
+    lookIntoMirror(unit, elevation);
+    return elevation >= horizon ? sunDisc(unit, elevation, pixelAngle) : vec4(0.0);
 }
 
 // Luminance of the air between the camera and a point at a distance (m) in a direction; cd m^-2.
@@ -105,7 +142,14 @@ vec4 showmyskyRadianceTo(vec3 direction, float distance)
     vec4 shares[SCATTERERS + 1];
     for (int i = 0; i <= SCATTERERS; ++i)
         shares[i] = aerialAt(place, i);
-    return skyLight(unit, elevation, shares);
+    vec4 light = skyLight(unit, elevation, shares);
+    if (cityCount > 0) { // of cities' light there is no table over the distance: it is taken as spread over the air that is seen
+        AerialPlace end = place;
+        end.texel = aerialSize.z - 1.0;
+        vec4 share = min(opacityOf(place) / max(opacityOf(end), vec4(1e-6)), vec4(1.0));
+        light += share * cityAirLight(placeAmongCities(unit, elevation, horizon, dipTangent), elevation);
+    }
+    return light;
 }
 
 // What the same air lets through of light with the Sun's spectrum, 0..1; the ground itself is no part of it.
@@ -174,5 +218,27 @@ vec4 showmyskySkyIlluminance()
 #undef aerialAt
 #undef aerialPlaceOf
 #undef AerialPlace
+#undef opacityOf
+#undef CityPlace
+#undef placeAmongCities
+#undef insideCity
+#undef cityAir
+#undef cityDiscs
+#undef cityCount
+#undef cityScale
+#undef cityTableSize
+#undef dipTangent
+#undef cityGround
+#undef cityLight
+#undef cityAirLight
+#undef sunColours
+#undef sunRadius
+#undef moonDirection
+#undef moonRadius
+#undef limbExponents
+#undef sunDisc
 #undef SCATTERERS
 #undef PHASE_ROWS
+#undef SUN_COLOURS
+#undef CITY_COLOURS
+#undef WHOLE_TURN

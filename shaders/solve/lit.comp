@@ -3,7 +3,7 @@
 #include "solve/rays.glsl"
 #include "lib/sun.glsl"
 
-uniform samplerBuffer lit;    // [ray of this dispatch][node][elevation][scatterer]: log2
+uniform samplerBuffer lit;    // [ray of this dispatch][node][elevation][scatterer]: X / Y, log2 Y, Z / Y, scotopic / Y
 uniform samplerBuffer phases; // [scatterer][angle][set]: the first wavelength's are those of all
 uniform int elevations, angles;
 uniform float sunRadius;
@@ -28,8 +28,10 @@ void main()
         float u = sunAxis(elevation, place.x, sunRadius, place.y) * float(elevations - 1);
         int e = min(int(u), elevations - 2);
         int at = ((int(gl_GlobalInvocationID.y) * nodes + k) * elevations + e) * SCATTERERS;
-        for (int i = 0; i < SCATTERERS; ++i)
-            radiance[i] += visible * exp2(mix(texelFetch(lit, at + i), texelFetch(lit, at + SCATTERERS + i), u - float(e)));
+        for (int i = 0; i < SCATTERERS; ++i) {
+            vec4 light = mix(texelFetch(lit, at + i), texelFetch(lit, at + SCATTERERS + i), u - float(e));
+            radiance[i] += visible * exp2(light.y) * vec4(light.x, 1.0, light.zw);
+        }
     }
     PhasePlace angle = phasePlace(s.nu, angles);
     for (int i = 0; i < SCATTERERS; ++i) {
