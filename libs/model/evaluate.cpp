@@ -20,8 +20,6 @@ double cosineToSun(const SkyGeometry& g)
                       -1., 1.);
 }
 
-bool onlySingle(const Model& model) { return model.manifest().scatteringOrders == 1 && !model.manifest().allScatteringOrders; }
-
 /// From moments. Nodes are many, so that the error is that of the moments and not of this evaluation.
 class SkyFromMoments : public SkyOfModel
 {
@@ -67,7 +65,7 @@ public:
         for (const auto& species : medium_.species)
             if (species.scatters() && model.hasTable("single-scattering/" + species.name))
                 single_.push_back({&species, ScatteringTable(model, "single-scattering/" + species.name)});
-        if (!onlySingle(model))
+        if (!scattersOnceAtMost(model.manifest()))
             multiple_.emplace(model, "multiple-scattering");
         for (const auto& part : single_)
             refuseLuminance(part.table);
@@ -135,7 +133,7 @@ std::unique_ptr<SkyOfModel> openSky(const Model& model, const SkySource source)
     if (source == SkySource::Moments) {
         const physics::Medium medium = readMedium(model);
         return skyOfMoments(medium, readOptics(model, medium),
-                            onlySingle(model) ? std::nullopt : std::optional(readMoments(model)));
+                            scattersOnceAtMost(model.manifest()) ? std::nullopt : std::optional(readMoments(model)));
     }
     return std::make_unique<SkyFromTextures>(model);
 }

@@ -1,6 +1,7 @@
 #include "model/moment_tables.hpp"
 #include "base/error.hpp"
 #include "physics/harmonics.hpp"
+#include <algorithm>
 #include <cmath>
 
 namespace sky::model {
@@ -49,6 +50,14 @@ void writeMoments(ModelWriter& writer, const std::string& name, const physics::M
     ground.axes = {sunAxis(m.grid)};
     ground.rowAxes = 1;
     writer.table(ground, std::vector<float>(m.groundIrradiance.begin(), m.groundIrradiance.end()));
+}
+
+bool scattersOnceAtMost(const Manifest& manifest)
+{
+    const bool one = manifest.scatteringOrders <= 1 && !manifest.allScatteringOrders;
+    const bool clear = std::none_of(manifest.species.begin(), manifest.species.end(), [](const SpeciesInfo& s) { return s.scatters; });
+    const auto& sun = manifest.solarIrradiance;
+    return one || clear || std::none_of(sun.begin(), sun.end(), [](double e) { return e > 0; });
 }
 
 physics::Moments readMoments(const Model& model, const std::string& name)

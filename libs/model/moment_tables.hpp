@@ -12,6 +12,10 @@ namespace sky::model {
 /// Writes the tables `name` (moments) and `name`-ground-irradiance.
 void writeMoments(ModelWriter& writer, const std::string& name, const physics::Moments& moments);
 
+/// True if no light of this model is scattered twice: one order was asked for, or nothing scatters, or the Sun gives no light. Such a
+/// model has neither moments nor a table of multiple scattering, and needs none.
+bool scattersOnceAtMost(const Manifest& manifest);
+
 /// The moments of a model.   throws ModelError
 physics::Moments readMoments(const Model& model, const std::string& name = "moments");
 
