@@ -74,6 +74,7 @@ SceneSettings settingsOf(const showmysky_scene& given)
     settings.eclipseOrders = scene.eclipse_orders;
     settings.eclipseFine = scene.eclipse_fine != 0;
     settings.limbDarkening = scene.limb_darkening != 0;
+    settings.precomputedEclipse = scene.precomputed_eclipse != 0;
     if (scene.cities)
         settings.cities = citiesOf(scene.cities, scene.city_count);
     if (scene.solar_spectrum_factors)
@@ -164,6 +165,13 @@ int showmysky_eclipse_state(const showmysky_sky* sky, const showmysky_scene* sce
         *result = {static_cast<int>(state.phase), state.obscuration,      state.magnitude,
                    state.separation,              state.sunAngularRadius, state.moonAngularRadius};
     });
+}
+
+int showmysky_uses_eclipse_table(const showmysky_sky* sky, const showmysky_scene* scene)
+{
+    bool used = false;
+    guarded([&] { used = sky->sky.usesEclipseTable(settingsOf(*scene)); });
+    return used ? 1 : 0;
 }
 
 int showmysky_draw(showmysky_sky* sky, const showmysky_camera* camera, int width, int height, int reduction)

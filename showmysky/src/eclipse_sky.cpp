@@ -83,16 +83,21 @@ bool EclipseSky::step()
         groundRatios_ = skyRatios_;
         return ready_ = true;
     }
-    if (!field_) {
-        field_.emplace(air_, sun_, scene_->bodies, scene_->orders,
-                       [this](const std::array<float, 3>& point) { return light_->luminance(point); });
-        return false;
-    }
-    if (!field_->step())
+    if (!followField())
         return false;
     tabulateRatios();
     ready_ = true;
     return true;
+}
+
+/// Does a part of the work on the field; true once it is there.
+bool EclipseSky::followField()
+{
+    if (field_)
+        return field_->step();
+    field_.emplace(air_, sun_, scene_->bodies, scene_->orders,
+                   [this](const std::array<float, 3>& point) { return light_->luminance(point); });
+    return false;
 }
 
 double EclipseSky::fractionDone() const
@@ -159,7 +164,7 @@ Texel EclipseSky::ratioAt(const std::vector<Texel>& table, const double coordina
     return result;
 }
 
-SkyView EclipseSky::dimmed(const OrdinarySky& sky, const int halfViews, const int azimuths) const
+SkyView EclipseSky::dimmed(const OrdinarySky& sky, const ViewTable* const eclipsed, const int halfViews, const int azimuths) const
 {
     const auto& planet = atmosphere_.planet();
     const double altitude = scene_->bodies.cameraAltitude;
@@ -174,7 +179,7 @@ SkyView EclipseSky::dimmed(const OrdinarySky& sky, const int halfViews, const in
             result.scattered[i] = ViewTable(halfViews, azimuths);
     // As fine as they are drawn without an eclipse.
     const auto fine = [](const ViewTable& table) { return resampled(table, drawnHalfViews, drawnAzimuths); };
-    const ViewTable multiple = fine(sky.view.whole), direct = fine(sky.groundDirect), diffuse = fine(sky.groundDiffuse),
+    const ViewTable multiple = fine(eclipsed ? *eclipsed : sky.view.whole), direct = fine(sky.groundDirect), diffuse = fine(sky.groundDiffuse),
                     glow = fine(sky.glow);
     std::vector<ViewTable> single;
     for (const auto& table : sky.view.scattered)
@@ -212,7 +217,7 @@ SkyView EclipseSky::dimmed(const OrdinarySky& sky, const int halfViews, const in
                         whole[c] += factor[c] * value[c];
                 };
                 if (!multiple.empty())
-                    add(multiple, ratioAt(skyRatios_, coordinate, half, relative));
+                    add(multiple, eclipsed ? Texel{1, 1, 1, 1} : ratioAt(skyRatios_, coordinate, half, relative));
                 if (half == 1 && !direct.empty()) {
                     add(direct, lightAt(toGround));
                     add(diffuse, ratioAt(groundRatios_, coordinate, half, relative));
@@ -259,12 +264,12 @@ void EclipseSky::visibleAt(const std::array<double, 3>& direction, const double 
         std::fill_n(result, atmosphere_.wavelengths(), physics::visibleFraction(discs));
 }
 
-EclipseSky::Ratios EclipseSky::ratios(const std::array<double, 3>& direction, const bool ground) const
+EclipseSky::Ratios EclipseSky::ratios(const std::array<double, 3>& direction, const bool ground)
 {
     const auto wavelengths = static_cast<std::size_t>(atmosphere_.wavelengths());
     Ratios result{std::vector<double>(wavelengths, 1.), std::vector<double>(wavelengths, 1.)};
-    if (!field_)
-        return result;
+    while (!followField()) {
+    }
     const auto light =
         field_->view({eclipseViewRay(atmosphere_.planet(), scene_->bodies.cameraAltitude, direction[2], ground)},
                      {std::atan2(direction[1], direction[0])});

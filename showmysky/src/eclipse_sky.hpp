@@ -26,7 +26,7 @@ struct EclipseScene {
     sky::physics::EclipseBodies bodies;
     sky::eclipse::Orders orders;
     bool limbDarkening = false;
-    bool field = true;          ///< false: nothing of higher orders is asked for
+    bool field = true;          ///< false: pictures need no field of higher orders
     std::vector<Texel> weights; ///< [wavelength]
 };
 
@@ -41,18 +41,20 @@ public:
     bool step();
     double fractionDone() const;
 
-    SkyView dimmed(const OrdinarySky& sky, int halfViews, int azimuths) const;
+    /// \param eclipsed  light of higher orders that is dimmed already, in place of `sky`'s; null: that is dimmed by the local field
+    SkyView dimmed(const OrdinarySky& sky, const ViewTable* eclipsed, int halfViews, int azimuths) const;
 
     /// Share of the Sun's light left at a distance in a direction (unit vector), [wavelength].
     void visibleAt(const std::array<double, 3>& direction, double distance, double* result) const;
     /// Share left of the light of higher orders in a direction, and of the diffuse light of the ground there,
-    /// [wavelength].
+    /// [wavelength]. The first question computes the field where pictures did without.
     struct Ratios {
         std::vector<double> sky, ground;
     };
-    Ratios ratios(const std::array<double, 3>& direction, bool ground) const;
+    Ratios ratios(const std::array<double, 3>& direction, bool ground);
 
 private:
+    bool followField();
     std::vector<sky::eclipse::ViewRay> viewRays() const;
     void tabulateRatios();
     Texel ratioAt(const std::vector<Texel>& table, double coordinate, int half, double relative) const;

@@ -9,8 +9,6 @@ namespace gl = sky::gl;
 
 namespace {
 
-constexpr unsigned unitsUsed = 3;
-
 void setUniform(const gl::Api& gl, GLint at, const UniformValue& value)
 {
     struct Setter {
@@ -69,6 +67,11 @@ void HostFunctions::bind(unsigned program, unsigned firstUnit, const Painter& pa
         api_->GetProgramiv(program, GL_LINK_STATUS, &linked);
     if (!linked)
         throw Error(ErrorKind::settings, "There is no linked OpenGL program of number " + std::to_string(program) + ".");
+    std::vector<std::pair<const char*, const gl::Texture*>> textures{
+        {"skyTables", &painter.skyTables()}, {"phases", &painter.phases()}, {"aerial", &aerial_}};
+    if (painter.hasCities())
+        textures.insert(textures.end(), {{"cityAir", &painter.cityAir()}, {"cityDiscs", &painter.cityDiscs()}});
+    const auto unitsUsed = static_cast<unsigned>(textures.size());
     if (firstUnit > static_cast<unsigned>(api_.limits().textureUnits) ||
         firstUnit + unitsUsed > static_cast<unsigned>(api_.limits().textureUnits))
         throw Error(ErrorKind::settings, "The functions need " + std::to_string(unitsUsed) + " texture units from " +
@@ -84,14 +87,18 @@ void HostFunctions::bind(unsigned program, unsigned firstUnit, const Painter& pa
             if (const GLint at = locate(name); at >= 0) // drivers drop what a host doesn't use
                 setUniform(api_, at, value);
     unsigned unit = firstUnit;
-    for (const auto& [name, texture] : {std::pair<const char*, const gl::Texture*>{"skyTables", &painter.skyTables()},
-                                        {"phases", &painter.phases()}, {"aerial", &aerial_}}) {
+    for (const auto& [name, texture] : textures) {
         texture->bindUnit(unit);
         api_->BindSampler(unit, 0);
         if (const GLint at = locate(name); at >= 0)
             api_->Uniform1i(at, static_cast<GLint>(unit));
         ++unit;
     }
+    // Samplers of different kinds may not share a unit, used or not: without cities theirs look where the sky's tables are.
+    if (!painter.hasCities())
+        for (const char* name : {"cityAir", "cityDiscs"})
+            if (const GLint at = locate(name); at >= 0)
+                api_->Uniform1i(at, static_cast<GLint>(firstUnit));
     api_->ActiveTexture(static_cast<GLenum>(activeBefore));
     api_->UseProgram(static_cast<GLuint>(programBefore));
     gl::checkErrors(api_, "binding the functions for hosts");

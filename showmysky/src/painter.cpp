@@ -20,8 +20,6 @@ constexpr double pi = 3.14159265358979323846;
 gl::Program buildProgram(const gl::Api& api, int scatterers, const Options& options, bool eclipse, bool cities)
 {
     std::vector<gl::Define> defines = Painter::lightDefines(scatterers);
-    defines.push_back({"SUN_COLOURS", std::to_string(sunColourCount)});
-    defines.push_back({"CITY_COLOURS", std::to_string(cityColourCount)});
     defines.push_back({"WHOLE_TURN", eclipse ? "true" : "false"});
     if (cities)
         defines.push_back({"CITIES", "1"});
@@ -76,7 +74,9 @@ std::size_t bytesOf(const gl::Texture& texture)
 std::vector<gl::Define> Painter::lightDefines(int scatterers)
 {
     return {{"SCATTERERS", std::to_string(scatterers)},
-            {"PHASE_ROWS", std::to_string(std::max(1, (scatterers + 3) / 4))}};
+            {"PHASE_ROWS", std::to_string(std::max(1, (scatterers + 3) / 4))},
+            {"SUN_COLOURS", std::to_string(sunColourCount)},
+            {"CITY_COLOURS", std::to_string(cityColourCount)}};
 }
 
 Painter::Painter(const gl::Api& api, int scatterers, const std::vector<Texel>& phases, const Options& options)
@@ -110,6 +110,12 @@ void Painter::makeFor(bool eclipse, bool cities)
 void Painter::set(const std::string& name, const UniformValue& value)
 {
     own_[name] = value;
+    apply(program_, name, value);
+}
+
+void Painter::setLight(const std::string& name, const UniformValue& value)
+{
+    light_[name] = value;
     apply(program_, name, value);
 }
 
@@ -152,18 +158,22 @@ void Painter::setSky(const SkyView& view, const SceneGeometry& geometry)
     light_["inverseRanges"] = std::array<float, 2>{inverseRange(pi / 2 - geometry.horizon),
                                                     inverseRange(pi / 2 + geometry.horizon)};
     light_["mirror"] = geometry.mirror ? 1 : 0;
+    light_["dipTangent"] = static_cast<float>(geometry.dipTangent);
+    light_["sunColours"] = std::vector<Texel>(geometry.sunColours.begin(), geometry.sunColours.end());
+    light_["sunRadius"] = static_cast<float>(geometry.sunRadius);
+    light_["moonDirection"] = asFloats(geometry.moonDirection);
+    light_["moonRadius"] = static_cast<float>(geometry.eclipse ? geometry.moonRadius : 0);
+    light_["limbExponents"] = geometry.limbExponents;
     for (const auto& [name, value] : light_)
         apply(program_, name, value);
-    set("sunColours", std::vector<Texel>(geometry.sunColours.begin(), geometry.sunColours.end()));
-    set("sunRadius", static_cast<float>(geometry.sunRadius));
-    set("dipTangent", static_cast<float>(geometry.dipTangent));
+    set("showSun", geometry.showSun ? 1 : 0);
 }
 
 void Painter::setCities(const CityLight& light)
 {
     cities_ = static_cast<int>(light.discs.size());
     makeFor(eclipse_, cities_ > 0);
-    set("cityCount", cities_);
+    setLight("cityCount", cities_);
     if (cities_ == 0)
         return;
     float largest = 1e-30f;
@@ -185,8 +195,8 @@ void Painter::setCities(const CityLight& light)
     cityDiscs_.setFilter(gl::Filter::nearest);
     cityAir_.upload(air);
     cityDiscs_.upload(discs);
-    set("cityScale", largest);
-    set("cityTableSize", std::array<float, 2>{static_cast<float>(light.air.azimuths), static_cast<float>(light.air.halfViews)});
+    setLight("cityScale", largest);
+    setLight("cityTableSize", std::array<float, 2>{static_cast<float>(light.air.azimuths), static_cast<float>(light.air.halfViews)});
 }
 
 void Painter::setAxes(const SkyView& view, const SceneGeometry& geometry)
@@ -200,9 +210,6 @@ void Painter::setAxes(const SkyView& view, const SceneGeometry& geometry)
                                                 static_cast<float>(focus.offset), static_cast<float>(focus.scale)};
     light_["azimuthFocus"] = std::array<float, 3>{static_cast<float>(columns[0]), static_cast<float>(columns[1]),
                                                   static_cast<float>(columns[2])};
-    set("moonDirection", asFloats(geometry.moonDirection));
-    set("moonRadius", static_cast<float>(geometry.eclipse ? geometry.moonRadius : 0));
-    set("limbExponents", geometry.limbExponents);
 }
 
 void Painter::setCamera(const Camera& camera, int width, int height)

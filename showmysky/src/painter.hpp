@@ -19,7 +19,8 @@ struct SceneGeometry {
     std::array<double, 3> sunDirection{};
     double horizon = 0;   ///< elevation, rad
     double dipTangent = 0; ///< of its angle below the horizontal
-    double sunRadius = 0; ///< rad; 0 where the disc isn't shown
+    double sunRadius = 0; ///< rad
+    bool showSun = false;
     std::array<Texel, sunColourCount> sunColours{};
     bool eclipse = false;
     std::array<double, 3> moonDirection{};
@@ -51,10 +52,13 @@ public:
     int pictureHeight() const { return pictureHeight_; }
     int reduction() const { return reduction_; }
     unsigned program() const { return program_.name(); }
-    /// What the functions of shaders/render/sky_light.glsl read.
+    /// What the functions of shaders/render/sky_light.glsl, city_light.glsl and sun_disc.glsl read.
     const Uniforms& lightUniforms() const { return light_; }
     const sky::gl::Texture2D& skyTables() const { return tables_; }
     const sky::gl::Texture2D& phases() const { return phases_; }
+    bool hasCities() const { return cities_ > 0; }
+    const sky::gl::Texture2D& cityAir() const { return cityAir_; }
+    const sky::gl::Texture2D& cityDiscs() const { return cityDiscs_; }
     /// What these functions need defined.
     static std::vector<sky::gl::Define> lightDefines(int scatterers);
     std::size_t textureBytes() const;
@@ -64,6 +68,7 @@ private:
     /// Remakes the program where the sky now needs another one. Uniforms keep their values.
     void makeFor(bool eclipse, bool cities);
     void set(const std::string& name, const UniformValue& value);
+    void setLight(const std::string& name, const UniformValue& value);
     void setAxes(const SkyView& view, const SceneGeometry& geometry);
     void setCamera(const Camera& camera, int width, int height);
 

@@ -60,14 +60,14 @@ void EclipsePhotometry::radiance(const Photometer::View& view, const Moon& moon,
     const auto entry = enterAir(planet, view.altitude, mu);
     if (!entry)
         return;
-    const bool ground = physics::hitsGround(planet, view.altitude, mu);
+    const bool hitsGround = physics::hitsGround(planet, view.altitude, mu);
     const auto visibleAt = [&](const physics::RayNodes::Node& node) {
         const double distance = (planet.radius + view.altitude) * node.nuScale / node.sunScale;
         return shadow.visible({distance * direction[0], distance * direction[1], distance * direction[2]});
     };
     const std::size_t row = sky_.optics.scatterers.size() * wavelengths;
     physics::RayTracer tracer(sky_.profile, sky_.optics);
-    auto ray = tracer.trace(entry->altitude, entry->mu, eclipseNodes, ground);
+    auto ray = tracer.trace(entry->altitude, entry->mu, eclipseNodes, hitsGround);
     if (layers & Photometer::singleScattering) {
         for (std::size_t k = 0; k < ray.nodes.size(); ++k) {
             ray.nodes[k] = entry->node(ray.nodes[k]);
@@ -77,30 +77,40 @@ void EclipsePhotometry::radiance(const Photometer::View& view, const Moon& moon,
         }
         sky_.evaluator.singleAlong(ray, muSun, nu, true, result);
     }
-    if (layers & (Photometer::multipleScattering | Photometer::zeroOrder)) {
-        const auto light = fieldOf(bodies)->view({eclipseViewRay(planet, view.altitude, mu, ground)},
+    const bool multiple = (layers & Photometer::multipleScattering) && sky_.moments,
+               ground = (layers & Photometer::zeroOrder) && hitsGround;
+    std::vector<double> light(wavelengths), skyRatio(wavelengths, 1.), groundRatio(wavelengths, 1.);
+    if (sky_.moments && (multiple || ground)) {
+        const auto field = fieldOf(bodies)->view({eclipseViewRay(planet, view.altitude, mu, hitsGround)},
                                                  {std::atan2(direction[1], direction[0])});
-        std::vector<double> direct(wavelengths), diffuse(wavelengths), multiple(wavelengths, 0.);
-        if ((layers & Photometer::zeroOrder) && ground) {
-            const auto there = entry->node(ray.ground);
-            const double muSunThere = std::clamp(there.sunScale * muSun + there.nuScale * nu, -1., 1.),
-                         visible = visibleAt(there);
-            sky_.sun.horizontalIrradiance(0, muSunThere, direct.data());
-            sky_.moments->interpolateGround(muSunThere, diffuse.data());
-            for (std::size_t w = 0; w < wavelengths; ++w)
-                result[w] += ray.groundTransmittance[w] * sky_.medium.groundAlbedo[w] / pi *
-                             (visible * direct[w] +
-                              static_cast<double>(light.groundRatio(0, 0, static_cast<int>(w))) * diffuse[w]);
+        for (int w = 0; w < field.wavelengths; ++w) {
+            skyRatio[static_cast<std::size_t>(w)] = static_cast<double>(field.skyRatio(0, 0, w));
+            groundRatio[static_cast<std::size_t>(w)] = static_cast<double>(field.groundRatio(0, 0, w));
         }
-        if (layers & Photometer::multipleScattering) {
-            auto coarse =
-                tracer.trace(entry->altitude, entry->mu, physics::SkyEvaluator::Parts{}.multipleNodes, ground);
-            for (auto& node : coarse.nodes)
-                node = entry->node(node);
-            sky_.evaluator.multipleAlong(coarse, *sky_.moments, muSun, nu, multiple.data());
+    }
+    if (ground) {
+        const auto there = entry->node(ray.ground);
+        const double muSunThere = std::clamp(there.sunScale * muSun + there.nuScale * nu, -1., 1.),
+                     visible = visibleAt(there);
+        const auto addReflected = [&](const auto& share) {
             for (std::size_t w = 0; w < wavelengths; ++w)
-                result[w] += static_cast<double>(light.skyRatio(0, 0, static_cast<int>(w))) * multiple[w];
+                result[w] += ray.groundTransmittance[w] * sky_.medium.groundAlbedo[w] / pi * share(w) * light[w];
+        };
+        sky_.sun.horizontalIrradiance(0, muSunThere, light.data());
+        addReflected([&](std::size_t) { return visible; });
+        if (sky_.moments) {
+            sky_.moments->interpolateGround(muSunThere, light.data());
+            addReflected([&](std::size_t w) { return groundRatio[w]; });
         }
+    }
+    if (multiple) {
+        auto coarse = tracer.trace(entry->altitude, entry->mu, physics::SkyEvaluator::Parts{}.multipleNodes, hitsGround);
+        for (auto& node : coarse.nodes)
+            node = entry->node(node);
+        std::fill(light.begin(), light.end(), 0.);
+        sky_.evaluator.multipleAlong(coarse, *sky_.moments, muSun, nu, light.data());
+        for (std::size_t w = 0; w < wavelengths; ++w)
+            result[w] += skyRatio[w] * light[w];
     }
     for (std::size_t w = 0; w < wavelengths; ++w)
         result[w] = std::max(0., result[w] * sky_.medium.solarIrradiance[w]);

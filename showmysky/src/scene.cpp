@@ -2,6 +2,7 @@
 
 #include "air_entry.hpp"
 #include "bodies.hpp"
+#include "model/eclipse_table.hpp"
 #include "model/moment_tables.hpp"
 #include "physics/sky.hpp"
 #include <algorithm>
@@ -52,7 +53,7 @@ bool sameEclipse(const SceneSettings& a, const SceneSettings& b)
     return a.eclipse == EclipseMode::off ||
            (a.sun.azimuth == b.sun.azimuth && a.moon.azimuth == b.moon.azimuth && a.moon.zenithAngle == b.moon.zenithAngle &&
             a.moon.distance == b.moon.distance && a.eclipseOrders == b.eclipseOrders && a.eclipseFine == b.eclipseFine &&
-            a.limbDarkening == b.limbDarkening);
+            a.limbDarkening == b.limbDarkening && a.precomputedEclipse == b.precomputedEclipse && a.pseudoMirror == b.pseudoMirror);
 }
 
 void require(bool fine, const std::string& message)
@@ -105,9 +106,14 @@ void Scene::followSunlight()
                                              tabulatedSunRadius_);
 }
 
+bool Scene::onceAtMost() const
+{
+    return sky::model::scattersOnceAtMost(atmosphere_->model.manifest());
+}
+
 bool Scene::hasSource(Source source) const
 {
-    return source == Source::moments ? atmosphere_->model.hasTable("moments")
+    return source == Source::moments ? atmosphere_->model.hasTable("moments") || onceAtMost()
                                      : TextureLookup::missingTable(*atmosphere_).empty();
 }
 
@@ -128,6 +134,9 @@ std::string Scene::whyUnsupported(const SceneSettings& settings) const
             return "The 4D textures of this model hold luminance, on which another solar spectrum can't act; compute "
                    "it with "
                    "--radiance, or choose the moments as source.";
+        if (settings.eclipse == EclipseMode::on && settings.precomputedEclipse && !onceAtMost() &&
+            !atmosphere_->model.hasTable(sky::model::eclipseTable))
+            return "The model holds no table of eclipses; compute it without --no-eds-tex, or let eclipses be followed on the fly.";
     }
     return {};
 }
@@ -193,6 +202,19 @@ EclipseState Scene::eclipseState(const SceneSettings& settings) const
     return stateOf(bodiesOf(atmosphere_->model.manifest(), settings.altitude, settings.sun, settings.moon, radius));
 }
 
+bool Scene::usesEclipseTable(const SceneSettings& settings) const
+{
+    const auto& manifest = atmosphere_->model.manifest();
+    const bool sameOrders = settings.eclipseOrders == 0 ||
+                            (!manifest.allScatteringOrders && settings.eclipseOrders == manifest.scatteringOrders);
+    if (settings.eclipse == EclipseMode::off || !settings.precomputedEclipse || settings.source != Source::textures ||
+        !settings.layers.multipleScattering || settings.limbDarkening || !sameOrders ||
+        !atmosphere_->model.hasTable(sky::model::eclipseTable))
+        return false;
+    const double radius = settings.sun.angularRadius.value_or(manifest.sunAngularRadius);
+    return sky::model::eclipseTableFits(manifest, bodiesOf(manifest, settings.altitude, settings.sun, settings.moon, radius));
+}
+
 LayersUsed Scene::layersUsed() const
 {
     LayersUsed used;
@@ -235,6 +257,7 @@ Progress Scene::step()
         // The parts that the Moon dims each in its own way.
         layers.ground = false;
         ordinary_ = {gathered(layers), {}, {}, glow()};
+        eclipsed_ = {};
         if (ground) {
             LayersUsed part{true, true, false, false, std::vector<bool>(layers.single.size(), false)};
             const auto weights = atmosphere_->luminanceWeights(settings_.solarSpectrumFactors);
@@ -293,7 +316,8 @@ EclipseScene Scene::eclipseScene() const
     scene.orders.all = settings_.eclipseOrders == 0 && manifest.allScatteringOrders;
     scene.orders.orders = settings_.eclipseOrders == 0 ? manifest.scatteringOrders : settings_.eclipseOrders;
     scene.limbDarkening = settings_.limbDarkening;
-    scene.field = settings_.layers.multipleScattering || settings_.layers.zeroOrder;
+    const bool ground = settings_.layers.zeroOrder && !settings_.pseudoMirror;
+    scene.field = !onceAtMost() && (ground || (settings_.layers.multipleScattering && !usesEclipseTable(settings_)));
     scene.weights = atmosphere_->luminanceWeights(settings_.solarSpectrumFactors);
     return scene;
 }
@@ -314,7 +338,11 @@ Progress Scene::eclipseStep()
     const int finer = settings_.eclipseFine ? 4 : 1;
     const int halfViews = std::max(eclipseHalfViews, (asked("eclipse.views") + 1) / 2);
     const int halfTurn = std::max((eclipseAzimuths - 1) / 2, asked("eclipse.azimuths") - 1);
-    view_ = eclipse_->dimmed(ordinary_, finer * halfViews, finer * 2 * halfTurn + 1);
+    const bool lookUp = usesEclipseTable(settings_);
+    if (lookUp && eclipsed_.empty())
+        eclipsed_ = lookup_->eclipsed(settings_.altitude, std::cos(settings_.sun.zenithAngle),
+                                      atmosphere_->luminanceWeights(settings_.solarSpectrumFactors));
+    view_ = eclipse_->dimmed(ordinary_, lookUp ? &eclipsed_ : nullptr, finer * halfViews, finer * 2 * halfTurn + 1);
     ready_ = true;
     ++version_;
     return {true, 1, {}};
@@ -403,11 +431,10 @@ SceneGeometry Scene::geometry() const
     result.dipTangent = std::sqrt(excess) / atmosphere_->planet().radius;
     result.mirror = settings_.pseudoMirror;
     result.filter = settings_.textureFiltering;
-    if (settings_.layers.solarDisc && settings_.layers.zeroOrder) {
-        result.sunRadius = sunRadius();
-        const auto colours = sunColours(sunColourCount);
-        std::copy(colours.begin(), colours.end(), result.sunColours.begin());
-    }
+    result.showSun = settings_.layers.solarDisc && settings_.layers.zeroOrder;
+    result.sunRadius = sunRadius();
+    const auto colours = sunColours(sunColourCount);
+    std::copy(colours.begin(), colours.end(), result.sunColours.begin());
     result.eclipse = settings_.eclipse == EclipseMode::on;
     if (result.eclipse) {
         result.moonDirection = directionOf(settings_.moon.azimuth, settings_.moon.zenithAngle);
@@ -501,7 +528,7 @@ std::vector<double> Scene::spectralRadiance(const std::array<double, 3>& directi
         while (!ready_)
             step();
         parts.singleNodes = eclipseNodes;
-        if (layers.multiple || layers.ground)
+        if (moments_ && (layers.multiple || (layers.ground && ground)))
             ratios = eclipse_->ratios(view, ground);
     }
 

@@ -31,6 +31,7 @@ public:
 
     /// throws Error
     EclipseState eclipseState(const SceneSettings& settings) const;
+    bool usesEclipseTable(const SceneSettings& settings) const;
 
     /// Checks and keeps the settings.   throws Error
     void setSettings(const SceneSettings& settings);
@@ -56,6 +57,7 @@ public:
     std::vector<double> spectralRadiance(const std::array<double, 3>& direction);
 
 private:
+    bool onceAtMost() const;
     LayersUsed layersUsed() const;
     double sunRadius() const;
     void followSunlight();
@@ -84,6 +86,7 @@ private:
     SceneSettings settings_;
     std::unique_ptr<EclipseSky> eclipse_; ///< once an eclipse has been asked for
     OrdinarySky ordinary_;                ///< in an eclipse: what it dims
+    ViewTable eclipsed_;                  ///< light of higher orders from the model's eclipse table; empty where it isn't used
     SkyView view_;
     bool ordinaryReady_ = false;
     bool ready_ = false;

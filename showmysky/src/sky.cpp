@@ -205,6 +205,12 @@ double Sky::sunAngularRadius() const
     return inside_->scene.atmosphere().medium.sunAngularRadius;
 }
 
+double Sky::moonDistance() const
+{
+    inside_->requireLoaded();
+    return inside_->scene.atmosphere().model.manifest().moonDistance;
+}
+
 void Sky::setSettings(const SceneSettings& settings)
 {
     translated([&] {
@@ -223,6 +229,14 @@ EclipseState Sky::eclipseState(const SceneSettings& settings) const
     return translated([&] {
         inside_->requireLoaded();
         return inside_->scene.eclipseState(settings);
+    });
+}
+
+bool Sky::usesEclipseTable(const SceneSettings& settings) const
+{
+    return translated([&] {
+        inside_->requireLoaded();
+        return inside_->scene.usesEclipseTable(settings);
     });
 }
 

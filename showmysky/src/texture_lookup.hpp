@@ -24,8 +24,11 @@ public:
     /// Scattered light alone: no ground. Tables are opened when a layer first needs them.
     ///   weights  X, Y, Z, scotopic of unit radiance per unit solar irradiance, [wavelength]
     SkyView slice(double altitude, double muSun, const LayersUsed& layers, const std::vector<Texel>& weights);
+    /// Light of higher orders while the Moon stands before the Sun (sky::model::eclipseTable), which the model must have.
+    ViewTable eclipsed(double altitude, double muSun, const std::vector<Texel>& weights);
 
 private:
+    ViewTable look(const std::string& name, int scatterer, double altitude, double muSun, const std::vector<Texel>& weights);
     const sky::model::ScatteringTable& table(const std::string& name);
 
     const Atmosphere& atmosphere_;

@@ -64,6 +64,9 @@ struct SceneSettings {
     Source source = Source::moments;
     EclipseMode eclipse = EclipseMode::off; ///< on: the Moon hides what it hides, from each point of the air
     int eclipseOrders = 0;                  ///< scatterings followed through the shadow, >= 1; 0: as many as the model has
+    /// Of the textures source: where Sun and Moon stand as in the model's eclipse table, light of higher orders is looked up there; else,
+    /// or where this is false, it is followed on the fly.
+    bool precomputedEclipse = false;
     bool eclipseFine = false;               ///< tables of an eclipse four times as fine both ways: for stills
     bool limbDarkening = false;             ///< in an eclipse the Sun is darker towards its limb
     bool onTheFlySingleScattering = false; ///< of the textures source: single scattering gathered, not looked up

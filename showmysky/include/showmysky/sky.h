@@ -42,6 +42,7 @@ typedef struct showmysky_scene {
     int eclipse_fine, limb_darkening;  /* 0 or 1 */
     const showmysky_city* cities;      /* part of the layer light_pollution; null where there are none */
     size_t city_count;
+    int precomputed_eclipse; /* 0 or 1 */
 } showmysky_scene;
 
 typedef struct showmysky_camera {
@@ -78,6 +79,8 @@ typedef struct showmysky_eclipse {
     double obscuration, magnitude, separation, sun_angular_radius, moon_angular_radius;
 } showmysky_eclipse;
 SHOWMYSKY_API int showmysky_eclipse_state(const showmysky_sky* sky, const showmysky_scene* scene, showmysky_eclipse* result);
+/* 1 if the scene is drawn from the model's eclipse table, 0 if not or where that can't be told. */
+SHOWMYSKY_API int showmysky_uses_eclipse_table(const showmysky_sky* sky, const showmysky_scene* scene);
 SHOWMYSKY_API int showmysky_draw(showmysky_sky* sky, const showmysky_camera* camera, int width, int height,
                                  int reduction);
 SHOWMYSKY_API unsigned showmysky_luminance_texture(const showmysky_sky* sky);

@@ -98,6 +98,7 @@ public:
     double topOfAtmosphere() const;  ///< m
     double planetRadius() const;     ///< m
     double sunAngularRadius() const; ///< rad
+    double moonDistance() const;     ///< m, from the planet's centre, of the model's eclipse table
 
     // The scene.
     /// Keeps the settings; nothing is computed until they are needed.   throws settings, unsupported: the former scene
@@ -106,6 +107,9 @@ public:
     const SceneSettings& settings() const;
     /// Sun and Moon of any settings, whether they ask for an eclipse or not.   throws settings: the Moon can't be there
     EclipseState eclipseState(const SceneSettings& settings) const;
+    /// True if these settings are drawn from the model's eclipse table: SceneSettings::precomputedEclipse asks for it, and Sun and Moon
+    /// stand concentric before the camera, of the radii that the table was made for, up to a quarter of their difference.
+    bool usesEclipseTable(const SceneSettings& settings) const;
     /// Computes a part of what the settings changed: call until done, then draw() doesn't wait. draw() does what is
     /// left.
     Progress prepareStep();
@@ -136,7 +140,9 @@ public:
     /// GLSL to put into a fragment shader of the host, after #version and before its own code; of this model, any scene. It
     /// declares uniforms, all with names that begin with showmysky, and, for OpenGL ES, highp as the default precision.
     /// Results are X, Y, Z (cd m^-2, lx) and scotopic; directions, of any length, stand in the frame of settings.hpp.
-    ///     vec4 showmyskyRadiance(vec3 direction)                       sky or ground, without the solar disc
+    ///     vec4 showmyskyRadiance(vec3 direction)                       sky or ground, with cities, without the solar disc
+    ///     vec4 showmyskySolarDisc(vec3 direction, float pixelAngle)    the disc, what the Moon leaves of it, its edge smoothed over rad;
+    ///                                                                  to be added. Layers::solarDisc plays no part
     ///     vec4 showmyskyRadianceTo(vec3 direction, float distance)     the air up to a point at a distance, m
     ///     vec4 showmyskyTransmittance(vec3 direction, float distance)  of that air, 0..1, for light of the Sun's spectrum
     ///     vec4 showmyskySunIlluminance(vec3 normal)                    by the Sun's disc, through the air: of a surface
@@ -146,7 +152,7 @@ public:
     /// has an example, and what they leave out.
     std::string shaderFunctions() const;
     /// Gives a program that contains them what they need of the present scene: sets its uniforms, and leaves textures bound
-    /// to three units from `firstTextureUnit` on, without sampler objects. To be repeated after setSettings(), and where the
+    /// to three units from `firstTextureUnit` on, five where the scene has cities, without sampler objects. To be repeated after setSettings(), and where the
     /// host has bound other textures there. Computes what is missing; the first call makes prepareStep() do so from then on.
     ///   throws  settings: `program` isn't linked, or the context has fewer units
     void bindShaderFunctions(unsigned program, unsigned firstTextureUnit);
