@@ -1,12 +1,14 @@
 // The 4D tables: one gather per texel of what the description asks for, altitude by altitude.
 
 #include "solver/bake.hpp"
+#include "base/background.hpp"
 #include "base/parallel.hpp"
 #include "physics/colour.hpp"
 #include "physics/table_axes.hpp"
 #include "solver/lit_gather.hpp"
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sky::solver {
 
@@ -33,13 +35,6 @@ std::vector<RayStart> viewsFrom(const BakeJob& job, double altitude, int first, 
     return starts;
 }
 
-/// Nodes along a ray of single scattering. They must resolve the edge of the shadow, but no finer than the table's Suns can show it:
-/// all of the quality's for 128 Suns, five eighths for 32.
-int directNodes(const BakeJob& job)
-{
-    return static_cast<int>(std::lround(job.settings.directNodes * std::min(1., 0.5 + job.size.sunZenithAngle / 256.)));
-}
-
 /// One layer of a table, gathered in as many groups of views as memory asks for.
 struct Layer {
     int views, suns, azimuths, viewsAtOnce;
@@ -47,7 +42,7 @@ struct Layer {
         : views(job.size.viewZenithAngle), suns(job.size.sunZenithAngle),
           azimuths(job.size.dotViewSun), viewsAtOnce(views)
     {
-        // A quarter of what the fixed needs leave: results exist on the GPU, in its copy, and in the layer they go to.
+        // A quarter of what the fixed needs leave: results exist on the GPU, in its copy, in the layer they go to, and while that is written.
         if (const std::size_t most = job.options.maxMemoryBytes)
             viewsAtOnce = static_cast<int>(std::clamp<std::size_t>(
                 (most - std::min(most, fixedMemory)) / 4 / (std::size_t(suns) * azimuths * bytesPerTexel), 1, views));
@@ -128,6 +123,11 @@ model::TableSpec BakeJob::spec(const std::string& name, const std::string& quant
     return result;
 }
 
+int BakeSettings::directNodesFor(const int suns) const
+{
+    return static_cast<int>(std::lround(directNodes * std::min(1., 0.5 + suns / 256.)));
+}
+
 std::vector<double> BakeJob::altitudes() const
 {
     auto all = physics::altitudeNodes(scene.profile.planet(), size.altitude);
@@ -176,12 +176,13 @@ void bakeSingleScattering(const gl::Api& api, const BakeJob& job, model::ModelWr
     const Layer shape(job, scatterers * vec4s * 16);
     gl::Buffer results(api, "single scattering", shape.texels(shape.viewsAtOnce) * scatterers * vec4s * 16);
     std::vector<std::vector<float>> layers(scatterers);
+    base::Background writing;
     for (std::size_t layer = 0; layer < altitudes.size(); ++layer) {
         const auto fraction = [&] { breath(double(layer) / double(altitudes.size())); };
         const SunSamples samples = samplesOf(api, job, altitudes[layer]);
         for (int first = 0; first < shape.views; first += shape.viewsAtOnce) {
             const int count = std::min(shape.viewsAtOnce, shape.views - first);
-            const DirectRayData rays(job.scene, viewsFrom(job, altitudes[layer], first, count), directNodes(job), false);
+            const DirectRayData rays(job.scene, viewsFrom(job, altitudes[layer], first, count), job.settings.directNodesFor(job.size.sunZenithAngle), false);
             const auto place = [&](Way way) {
                 const auto values = results.download();
                 const std::size_t floats = way == Way::spectra ? std::size_t(job.scene.sets()) * 4 : 4;
@@ -205,9 +206,12 @@ void bakeSingleScattering(const gl::Api& api, const BakeJob& job, model::ModelWr
                 place(Way::spectra);
             }
         }
-        for (int i = 0; i < scatterers; ++i)
-            writeLayer(job, tables[i], static_cast<int>(layer), ways[i] != Way::spectra, layers[i].data(), shape.suns, shape.texels(shape.views));
+        writing.start([&, layer, done = std::exchange(layers, std::vector<std::vector<float>>(scatterers))] {
+            for (int i = 0; i < scatterers; ++i)
+                writeLayer(job, tables[i], static_cast<int>(layer), ways[i] != Way::spectra, done[i].data(), shape.suns, shape.texels(shape.views));
+        });
     }
+    writing.finish();
     breath(1);
 }
 
@@ -217,14 +221,18 @@ void bakeMultipleScattering(const gl::Api& api, const BakeJob& job, const physic
     const bool luminance = !job.options.radiance;
     auto table = writer.table(job.spec(name, "multiple scattering", luminance));
     const std::size_t texels = std::size_t(job.size.viewZenithAngle) * job.size.sunZenithAngle * job.size.dotViewSun;
-    gatherMultipleScattering(api, job, field, luminance, breath, [&](int layer, const std::vector<float>& values) {
-        writeLayer(job, table, layer, luminance, values.data(), job.size.sunZenithAngle, texels);
+    base::Background writing;
+    gatherMultipleScattering(api, job, field, luminance, breath, [&](int layer, std::vector<float> values) {
+        writing.start([&, layer, done = std::move(values)] {
+            writeLayer(job, table, layer, luminance, done.data(), job.size.sunZenithAngle, texels);
+        });
     });
+    writing.finish();
 }
 
 void gatherMultipleScattering(const gl::Api& api, const BakeJob& job, const physics::Moments& field, const bool luminance,
                               const std::function<void(double)>& breath,
-                              const std::function<void(int layer, const std::vector<float>& texels)>& use)
+                              const std::function<void(int layer, std::vector<float> texels)>& use)
 {
     ScatteredGather gather(api, job.scene, false,
                            luminance ? luminanceOf(job.scene.medium) : std::vector<std::array<double, 4>>{});
@@ -243,7 +251,7 @@ void gatherMultipleScattering(const gl::Api& api, const BakeJob& job, const phys
                           [&] { breath(double(layer) / double(altitudes.size())); });
             shape.place(results.download().data(), first, count, floats, values);
         }
-        use(static_cast<int>(layer), values);
+        use(static_cast<int>(layer), std::exchange(values, {}));
     }
     breath(1);
 }

@@ -12,6 +12,9 @@ struct BakeSettings {
     int directNodes = 40;
     int nodes = 14;
     int refinement = 4; ///< fine Suns per Sun of the moments
+    /// Nodes for sunlight must resolve the edge of the shadow, but no finer than a table of so many Suns can show it: all for 128,
+    /// five eighths for 32.
+    int directNodesFor(int suns) const;
 };
 
 /// What the 4D tables of a model have in common.
@@ -43,7 +46,7 @@ void bakeMultipleScattering(const gl::Api& api, const BakeJob& job, const physic
 ///        wavelength, padded to whole sets of four
 void gatherMultipleScattering(const gl::Api& api, const BakeJob& job, const physics::Moments& field, bool luminance,
                               const std::function<void(double)>& breath,
-                              const std::function<void(int layer, const std::vector<float>& texels)>& use);
+                              const std::function<void(int layer, std::vector<float> texels)>& use);
 
 /// Transmittance from each altitude to space, "transmittance".
 void bakeTransmittance(const BakeJob& job, model::ModelWriter& writer);
