@@ -1,4 +1,5 @@
 #include "physics/ray.hpp"
+#include "physics/cells.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -75,8 +76,9 @@ void RayTracer::walk(const double h, const double mu, const bool hitsGround)
             const double byLength = (s1 - s0) / (length * 0.05 * cellScale_);
             const double byDepth = std::min(depth / (0.5 * cellScale_), 64.);
             const int cells = std::clamp(static_cast<int>(std::ceil(std::max({bySteepness, byLength, byDepth}))), 1, 256);
-            for (int c = 0; c < cells; ++c) {
-                const double a = s0 + (s1 - s0) * c / cells, b = c + 1 == cells ? s1 : s0 + (s1 - s0) * (c + 1) / cells;
+            const CellDivision division(s0, s1, cells, depth, 0.5 * cellScale_);
+            for (int c = 1; c <= cells; ++c) {
+                const double a = bounds_.back(), b = c == cells ? s1 : division.end(c);
                 const double offset = 0.5 * (b - a) / std::sqrt(3.), middle = 0.5 * (a + b);
                 profile_.densities(k, altitudeAlong(p, h, mu, middle - offset), n.data());
                 profile_.densities(k, altitudeAlong(p, h, mu, middle + offset), m.data());

@@ -1,4 +1,5 @@
 #include "photometry_ray.hpp"
+#include "physics/cells.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -162,10 +163,11 @@ void RayFolder::walk(FastRay& ray) const
             return;
         const double bySteepness = profile_.steepness(interval) * std::abs(height - ray.heights.back()) / effort_.cellSteepness;
         const double byLength = (to - from) / (length * effort_.cellLength);
-        const double byDepth = std::min((to - from) * extinction_[interval] / effort_.cellDepth, 64.);
+        const double depth = (to - from) * extinction_[interval], byDepth = std::min(depth / effort_.cellDepth, 64.);
         const int cells = std::clamp(static_cast<int>(std::ceil(std::max({bySteepness, byLength, byDepth}))), 1, 256);
+        const physics::CellDivision division(from, to, cells, depth, effort_.cellDepth);
         for (int c = 1; c <= cells; ++c) {
-            const double s = c == cells ? to : from + (to - from) * c / cells;
+            const double s = c == cells ? to : division.end(c);
             ray.bounds.push_back(s);
             ray.heights.push_back(c == cells ? height : physics::altitudeAlong(p, h, mu, s));
             ray.intervals.push_back(interval);
