@@ -156,6 +156,21 @@ Stencil MomentGrid::altitudeStencil(const double altitude) const
 
 Stencil MomentGrid::sunStencil(const double position) const { return uniformStencil(position, sunCount_); }
 
+Stencil MomentGrid::sunStencil(const double position, const int chords) const
+{
+    if (chords == 0)
+        return sunStencil(position);
+    const int k = std::clamp(static_cast<int>(position), 0, sunCount_ - 2);
+    const double u = (position - k) * chords;
+    const int chord = std::min(static_cast<int>(u), chords - 1);
+    Stencil s = sunStencil(k + double(chord) / chords);
+    // Its end at the next Sun, still among the same four.
+    const Stencil end = sunStencil(std::min(k + double(chord + 1) / chords, std::nextafter(k + 1., 0.)));
+    for (int i = 0; i < 4; ++i)
+        s.weight[i] += (u - chord) * (end.weight[i] - s.weight[i]);
+    return s;
+}
+
 const double* Moments::at(const int altitude, const int sun) const
 {
     return &values[size_t(altitude * grid.sunCount() + sun) * harmonicCount(degree) * wavelengths];
@@ -169,7 +184,7 @@ double* Moments::at(const int altitude, const int sun)
 void Moments::interpolate(const double altitude, const double muSun, double* const result) const
 {
     const Stencil a = grid.altitudeStencil(altitude);
-    const Stencil b = grid.sunStencil(grid.sunPosition(std::asin(std::clamp(muSun, -1., 1.))));
+    const Stencil b = grid.sunStencil(grid.sunPosition(std::asin(std::clamp(muSun, -1., 1.))), sunChords);
     const int count = harmonicCount(degree) * wavelengths;
     std::fill(result, result + count, 0.);
     for (int i = 0; i < 4; ++i)
@@ -190,7 +205,7 @@ void Moments::interpolate(const double altitude, const double muSun, double* con
 
 void Moments::interpolateGround(const double muSun, double* const result) const
 {
-    const Stencil b = grid.sunStencil(grid.sunPosition(std::asin(std::clamp(muSun, -1., 1.))));
+    const Stencil b = grid.sunStencil(grid.sunPosition(std::asin(std::clamp(muSun, -1., 1.))), sunChords);
     for (int w = 0; w < wavelengths; ++w) {
         double logarithm = 0;
         for (int j = 0; j < 4; ++j)

@@ -38,6 +38,8 @@ public:
     Stencil altitudeStencil(double altitude) const;
     /// Catmull-Rom on the uniform axis v.
     Stencil sunStencil(double position) const;
+    /// The same curve taken as `chords` straight lines between two Suns: how the GPU's sweeps read it. 0: the curve itself.
+    Stencil sunStencil(double position, int chords) const;
 
 private:
     Planet planet_;
@@ -58,6 +60,7 @@ struct Moments {
     int wavelengths = 0;
     std::vector<double> values;           ///< [altitude][sun][lm][wavelength]; lm = 0: ln I_00, others: I_lm / I_00
     std::vector<double> groundIrradiance; ///< [sun][wavelength], diffuse, per unit solar irradiance
+    int sunChords = 0;                    ///< for interpolation, see MomentGrid::sunStencil
 
     const double* at(int altitude, int sun) const;
     double* at(int altitude, int sun);

@@ -27,7 +27,8 @@ void toLogRatios(Moments& m)
 } // namespace
 
 Moments iterateSource(const Medium& medium, const Profile& profile, const Optics& optics, const SunTable& sun,
-                      const MomentGrid& grid, const MomentSettings& settings, const int orders, const int threadCount)
+                      const MomentGrid& grid, const MomentSettings& settings, const int orders, const int sunChords,
+                      const int threadCount)
 {
     const int wavelengths = optics.wavelengths, count = harmonicCount(settings.degree);
     const SkyEvaluator sky(medium, profile, optics, sun);
@@ -79,6 +80,8 @@ Moments iterateSource(const Medium& medium, const Profile& profile, const Optics
                         for (int w = 0; w < wavelengths; ++w)
                             radiance[w] += ray.groundTransmittance[w] * medium.groundAlbedo[w] / pi * irradiance[w];
                     }
+                    for (double& value : radiance)
+                        value = std::max(value, 0.); // a cut series may undershoot
                     const double solidAngle = set.weight[d] * 2 * pi / settings.azimuths;
                     for (int l = 0; l <= settings.degree; ++l)
                         for (int m = 0; m <= l; ++m) {
@@ -105,6 +108,7 @@ Moments iterateSource(const Medium& medium, const Profile& profile, const Optics
         for (size_t i = 0; i < total.groundIrradiance.size(); ++i)
             total.groundIrradiance[i] += current.groundIrradiance[i];
         previous = std::move(current);
+        previous.sunChords = sunChords;
         toLogRatios(previous);
     }
     toLogRatios(total);
