@@ -8,14 +8,17 @@ namespace sky::solver {
 namespace {
 
 /// Visits of a ray's node per second for one set of four wavelengths, a rough guess for llvmpipe on two cores.
-constexpr double directVisits = 1.6e8, scatteredVisits = 4.5e7;
+constexpr double directVisits = 1.6e8, scatteredVisits = 8e7;
 constexpr double qualityFactor(const std::string& quality)
 {
     return quality == "draft" ? 0.4 : quality == "fine" ? 5 : quality == "reference" ? 60 : 1;
 }
 
 /// Seconds for one field of an eclipse of three events and eight wavelengths, on two cores.
-constexpr double eclipseSeconds = 0.07;
+constexpr double eclipseSeconds = 0.09;
+
+/// Bytes of the program with a driver in software; what a stage takes is beyond that.
+constexpr double process = 90e6;
 
 bool anyPositive(const atmo::Spectrum& spectrum)
 {
@@ -100,15 +103,16 @@ std::vector<PlanItem> plan(const atmo::Description& d, const Options& options)
     const double sets = (d.wavelengths.count + 3) / 4, points = texels(d.scatteringSize, options);
     const double bytes = options.texturePrecisionBits <= 11 ? 2 : 4, compressed = 0.7;
     const auto size = [](double value) { return static_cast<std::size_t>(value); };
+    const auto memory = [](double value) { return static_cast<std::size_t>(process + value); };
     const double layer = points / std::max(1, d.scatteringSize.altitude) * 16;
     std::vector<PlanItem> items;
-    items.push_back({"medium", true, "densities and phase functions as tables", size(4e6), size(3e5), work.medium + work.sunlight});
+    items.push_back({"medium", true, "densities and phase functions as tables", memory(4e6), size(3e5), work.medium + work.sunlight});
     if (needs.field)
-        items.push_back({"moments", true, "", size(60e6 + 8e6 * sets), size(needs.moments ? 1.2e5 * sets : 0), work.moments});
+        items.push_back({"moments", true, "", memory(10e6 + 5e6 * sets), size(needs.moments ? 1.2e5 * sets : 0), work.moments});
     if (needs.transmittance)
-        items.push_back({"transmittance", true, "", size(1e6), size(d.transmittanceSize.altitude * d.transmittanceSize.zenithAngle * sets * 16 * compressed), work.transmittance});
+        items.push_back({"transmittance", true, "", memory(1e6), size(d.transmittanceSize.altitude * d.transmittanceSize.zenithAngle * sets * 16 * compressed), work.transmittance});
     if (needs.irradiance)
-        items.push_back({"irradiance", true, "", size(1e6), size(2. * d.irradianceSize.altitude * d.irradianceSize.zenithAngle * sets * 16 * compressed), work.irradiance});
+        items.push_back({"irradiance", true, "", memory(1e6), size(2. * d.irradianceSize.altitude * d.irradianceSize.zenithAngle * sets * 16 * compressed), work.irradiance});
     if (needs.single)
         for (const auto& s : d.scatterers) {
             if (!scattersLight(s)) {
@@ -117,13 +121,13 @@ std::vector<PlanItem> plan(const atmo::Description& d, const Options& options)
             }
             const bool luminance = !options.radiance && s.phaseFunctionType != atmo::PhaseFunctionType::General;
             items.push_back({"single-scattering/" + s.name, true,
-                             luminance ? "as XYZ and scotopic luminance" : "as spectral radiance", size(layer * (luminance ? 1 : sets)),
+                             luminance ? "as XYZ and scotopic luminance" : "as spectral radiance", memory(20e6 + 5 * layer * double(d.scatterers.size()) * (luminance ? 1 : sets)),
                              size(points * bytes * compressed * (luminance ? 4 : d.wavelengths.count)),
                              work.single / double(d.scatterers.size())});
         }
     if (needs.multiple)
         items.push_back({"multiple-scattering", true, options.radiance ? "as spectral radiance" : "as XYZ and scotopic luminance",
-                         size(50e6 + layer * (options.radiance ? sets : 1)),
+                         memory(35e6 + 5 * layer * (options.radiance ? sets : 1)),
                          size(points * bytes * compressed * (options.radiance ? d.wavelengths.count : 4)), work.multiple});
     if (needs.eclipsed) {
         const auto s = eclipseTableSize(d);
@@ -132,14 +136,14 @@ std::vector<PlanItem> plan(const atmo::Description& d, const Options& options)
                                                         d.scatteringSize.sunZenithAngle * sets);
         items.push_back({"eclipsed-double-scattering", true,
                          options.radiance ? "as spectral radiance, all orders from the second" : "as XYZ and scotopic luminance, all orders from the second",
-                         size(80e6 + texels * d.wavelengths.count * 6 * 4),
+                         memory(80e6 + texels * d.wavelengths.count * 6 * 4),
                          size(texels * layers * bytes * compressed * (options.radiance ? d.wavelengths.count : 4)), work.eclipsed});
     }
     if (needs.lightPollution) {
         const double texels = double(d.lightPollutionSize.altitude) * d.lightPollutionSize.zenithAngle;
         items.push_back({"light-pollution", true,
                          options.radiance ? "as spectral radiance, all orders" : "as XYZ and scotopic luminance, all orders",
-                         size(20e6 + 4e6 * sets), size(texels * 4 * compressed * (options.radiance ? d.wavelengths.count : 4)),
+                         memory(2e6 + 1e6 * sets), size(texels * 4 * compressed * (options.radiance ? d.wavelengths.count : 4)),
                          work.lightPollution});
     }
     for (const auto& s : needs.skipped)
