@@ -78,6 +78,9 @@ Api Api::load(const Loader& loader, RunCurrent runCurrent)
                                         : gladLoadGLContextUserPtr(&state.functions, callLoader, user);
     if (loaded == 0)
         throw GlError(std::string("The functions of this OpenGL context can't be loaded (version: ") + versionText + ").");
+    for (int i = 0; i < 8 && state.functions.GetError() != GL_NO_ERROR; ++i) {
+        // what a host left unread is not ours
+    }
     // glad reports what it knows, at most 4.3; the context may be newer.
     state.functions.GetIntegerv(GL_MAJOR_VERSION, &state.version.major);
     state.functions.GetIntegerv(GL_MINOR_VERSION, &state.version.minor);
@@ -121,8 +124,7 @@ void Api::runCurrent(const std::function<void()>& action) const
 void Api::label(GLenum identifier, GLuint name, std::string_view text) const
 {
     const GladGLContext& gl = state_->functions;
-    // Desktop GL has no suffix, ES has one.
-    const auto function = gl.ObjectLabel ? gl.ObjectLabel : gl.ObjectLabelKHR;
+    const auto function = hasUnsuffixed(3, 2) && gl.ObjectLabel ? gl.ObjectLabel : gl.ObjectLabelKHR;
     if (function && !text.empty())
         function(identifier, name, static_cast<GLsizei>(text.size()), text.data());
 }
@@ -158,7 +160,7 @@ void checkErrors(const Api& api, std::string_view stage, std::string_view label)
     if (!label.empty())
         where += " (" + std::string(label) + ")";
 
-    const auto resetStatus = api->GetGraphicsResetStatus      ? api->GetGraphicsResetStatus
+    const auto resetStatus = api.hasUnsuffixed(3, 2) && api->GetGraphicsResetStatus ? api->GetGraphicsResetStatus
                              : api->GetGraphicsResetStatusKHR ? api->GetGraphicsResetStatusKHR
                              : api->GetGraphicsResetStatusEXT ? api->GetGraphicsResetStatusEXT
                                                               : api->GetGraphicsResetStatusARB;

@@ -55,6 +55,9 @@ public:
     const Version& version() const;
     bool atLeast(int major, int minor) const; ///< within the context's own family, desktop or ES
     bool isEs() const { return version().es; }
+    /// True if a function that OpenGL ES has of its own from that version on goes by its plain name. Before, its suffixed name alone is
+    /// right: loaders such as ANGLE's give the plain one too, but it only reports an error.
+    bool hasUnsuffixed(int esMajor, int esMinor) const { return !isEs() || atLeast(esMajor, esMinor); }
     bool hasCompute() const { return !isEs() && atLeast(4, 3); }
     const Limits& limits() const;
     const std::string& renderer() const;

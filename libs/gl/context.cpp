@@ -120,8 +120,8 @@ Loader HeadlessContext::loader() const
 void HeadlessContext::installDebugOutput(const HeadlessOptions& options)
 {
     const Api& gl = *api_;
-    const auto callback = gl->DebugMessageCallback ? gl->DebugMessageCallback : gl->DebugMessageCallbackKHR;
-    const auto control = gl->DebugMessageControl ? gl->DebugMessageControl : gl->DebugMessageControlKHR;
+    const auto callback = gl.hasUnsuffixed(3, 2) && gl->DebugMessageCallback ? gl->DebugMessageCallback : gl->DebugMessageCallbackKHR;
+    const auto control = gl.hasUnsuffixed(3, 2) && gl->DebugMessageControl ? gl->DebugMessageControl : gl->DebugMessageControlKHR;
     if (!callback || !control)
         return;
     debugSink_ = std::make_unique<std::function<void(const std::string&)>>(options.debugSink);

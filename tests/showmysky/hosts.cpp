@@ -232,6 +232,26 @@ TEST_CASE("host: loading and preparing report their progress", "[gl]")
     CHECK(steps > 3);
 }
 
+TEST_CASE("host: an error that the host left unread is dropped, whatever the call", "[gl]")
+{
+    for (const auto& options : {desktop(), embedded()}) {
+        const auto context = gl::testing::context(options);
+        if (!context)
+            continue;
+        const gl::Api& api = context->api();
+        const auto leaveError = [&] { api->Enable(0xffff); };
+        leaveError();
+        Sky sky(SHOWMYSKY_TEST_MODEL, context->loader());
+        leaveError();
+        sky.loadAll();
+        leaveError();
+        CHECK(sky.draw(panorama(), 16, 8));
+        leaveError();
+        CHECK(sky.readLuminance().size() == 128);
+        CHECK(api->GetError() == GL_NO_ERROR);
+    }
+}
+
 TEST_CASE("host: directions of all projections, drawn and computed", "[gl]")
 {
     const auto context = gl::testing::context(desktop());
