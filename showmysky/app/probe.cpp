@@ -57,6 +57,9 @@ public:
         entry->add_option("--city", cities_, "Add the light of a city: distance=50km,azimuth=30,radius=5km,luminance=2[,spectrum=A:B:...]; "
                                              "repeat it, or separate more by semicolons.")
             ->allow_extra_args(false);
+        entry->add_flag("--precomputed-eclipse", precomputedEclipse_,
+                        "With --source textures: where Sun and Moon stand concentric, take higher orders from the model's table of "
+                        "eclipses; elsewhere they are followed on the fly.");
         entry->add_flag("--benchmark", benchmark_, "Print how long one question takes, instead of answering any.");
         return entry;
     }
@@ -105,7 +108,7 @@ private:
     std::unique_ptr<ProbeSource> makeSource() const
     {
         if (source_ == "textures")
-            return makeTextureSource(directory_);
+            return makeTextureSource(directory_, precomputedEclipse_);
         if (source_ != "moments" && source_ != "cpu")
             throw sky::UsageError("--source is \"" + source_ + "\"; expected moments, textures or cpu.");
         return makeMomentSource(directory_, source_ == "cpu" ? Photometer::Method::reference : Photometer::Method::fast);
@@ -190,7 +193,7 @@ private:
 
     std::vector<std::string> cities_;
     std::string directory_, queries_, output_ = "-", source_ = "moments", layers_ = "zero,single,multiple";
-    bool benchmark_ = false;
+    bool benchmark_ = false, precomputedEclipse_ = false;
 };
 
 } // namespace

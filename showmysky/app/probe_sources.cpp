@@ -1,7 +1,10 @@
 #include "probe_sources.hpp"
 #include "base/error.hpp"
+#include "bodies.hpp"
+#include "model/eclipse_table.hpp"
 #include "model/glow_tables.hpp"
 #include "model/medium_tables.hpp"
+#include "model/moment_tables.hpp"
 #include "model/scattering_table.hpp"
 #include "physics/geometry.hpp"
 #include "physics/harmonics.hpp"
@@ -47,7 +50,7 @@ private:
 class TextureSource : public ProbeSource
 {
 public:
-    explicit TextureSource(const std::string& directory)
+    TextureSource(const std::string& directory, bool eclipseTable)
         : model_(sky::model::Model::open(directory)), medium_(sky::model::readMedium(model_)),
           planet_{medium_.planetRadius, medium_.topOfAtmosphere}, photometer_(directory)
     {
@@ -57,10 +60,16 @@ public:
                 single_.push_back({&species, sky::model::ScatteringTable(model_, "single-scattering/" + species.name), {}});
                 spectral_ = spectral_ && single_.back().table.table().channels == sky::model::Channels::SpectralRadiance;
             }
-        if (model_.manifest().scatteringOrders > 1 || model_.manifest().allScatteringOrders) {
+        if (!sky::model::scattersOnceAtMost(model_.manifest())) {
             multiple_.emplace(Part{nullptr, sky::model::ScatteringTable(model_, "multiple-scattering"), {}});
             spectral_ = spectral_ && multiple_->table.table().channels == sky::model::Channels::SpectralRadiance;
         }
+        if (!eclipseTable)
+            return;
+        if (!model_.hasTable(sky::model::eclipseTable))
+            throw sky::UsageError("The model `" + directory + "` holds no table of eclipses; compute it without --no-eds-tex, or leave "
+                                  "--precomputed-eclipse out.");
+        eclipsed_.emplace(Part{nullptr, sky::model::ScatteringTable(model_, sky::model::eclipseTable), {}});
     }
 
     std::vector<std::string> columns() const override
@@ -70,21 +79,17 @@ public:
 
     void answer(const Photometer::View& view, const Moon* moon, unsigned layers, double* values) override
     {
-        if (moon)
-            throw sky::UsageError("The textures hold no eclipses; leave the Moon's columns out, or use --source moments.");
+        if (moon && !eclipsed_)
+            throw sky::UsageError("These textures hold no eclipses; leave the Moon's columns out, use --source moments, or ask for the table "
+                                  "of eclipses by --precomputed-eclipse.");
         if (view.altitude > planet_.topOfAtmosphere)
             throw sky::UsageError("The textures end at the top of the atmosphere, " + std::to_string(planet_.topOfAtmosphere) +
                                   " m; use --source moments for views from above.");
         std::vector<double> spectrum(medium_.wavelengthCount(), 0.), xyz(4, 0.);
-        if (layers & Photometer::zeroOrder)
-            photometer_.radiance(view, Photometer::zeroOrder, spectrum.data());
-        const double nu = std::cos(view.viewZenithAngle) * std::cos(view.sunZenithAngle) +
-                          std::sin(view.viewZenithAngle) * std::sin(view.sunZenithAngle) * std::cos(view.viewAzimuth - view.sunAzimuth);
-        if (layers & Photometer::singleScattering)
-            for (auto& part : single_)
-                add(part, view, std::acos(std::clamp(nu, -1., 1.)), spectrum, xyz);
-        if ((layers & Photometer::multipleScattering) && multiple_)
-            add(*multiple_, view, 0, spectrum, xyz);
+        if (moon)
+            addEclipsed(view, *moon, layers, spectrum, xyz);
+        else
+            addScattered(view, layers, spectrum, xyz);
         if (layers & Photometer::lightPollution)
             addGlow(view, spectrum, xyz);
         if (spectral_) {
@@ -105,6 +110,31 @@ private:
         std::vector<float> slice;             ///< of the altitude and Sun below
         double altitude = -1, sun = 0;
     };
+
+    void addScattered(const Photometer::View& view, unsigned layers, std::vector<double>& spectrum, std::vector<double>& xyz)
+    {
+        if (layers & Photometer::zeroOrder)
+            photometer_.radiance(view, Photometer::zeroOrder, spectrum.data());
+        const double nu = std::cos(view.viewZenithAngle) * std::cos(view.sunZenithAngle) +
+                          std::sin(view.viewZenithAngle) * std::sin(view.sunZenithAngle) * std::cos(view.viewAzimuth - view.sunAzimuth);
+        if (layers & Photometer::singleScattering)
+            for (auto& part : single_)
+                add(part, view, std::acos(std::clamp(nu, -1., 1.)), spectrum, xyz);
+        if ((layers & Photometer::multipleScattering) && multiple_)
+            add(*multiple_, view, 0, spectrum, xyz);
+    }
+
+    /// As the renderer: higher orders from the table where it fits; the rest follows the Moon wherever it is.
+    void addEclipsed(const Photometer::View& view, const Moon& moon, unsigned layers, std::vector<double>& spectrum, std::vector<double>& xyz)
+    {
+        const auto bodies = bodiesOf(model_.manifest(), view.altitude, {view.sunAzimuth, view.sunZenithAngle, {}}, moon,
+                                     medium_.sunAngularRadius);
+        const bool lookUp = (layers & Photometer::multipleScattering) && sky::model::eclipseTableFits(model_.manifest(), bodies);
+        layers &= Photometer::wholeSky & ~(lookUp ? Photometer::multipleScattering : 0u);
+        photometer_.eclipsedRadiance(&view, &moon, 1, layers, spectrum.data());
+        if (lookUp)
+            add(*eclipsed_, view, 0, spectrum, xyz);
+    }
 
     void addGlow(const Photometer::View& view, std::vector<double>& spectrum, std::vector<double>& xyz)
     {
@@ -142,7 +172,7 @@ private:
     sky::physics::Planet planet_;
     Photometer photometer_;
     std::vector<Part> single_;
-    std::optional<Part> multiple_;
+    std::optional<Part> multiple_, eclipsed_;
     std::optional<sky::model::GlowTable> glow_;
     bool spectral_ = false;
 };
@@ -154,6 +184,9 @@ std::unique_ptr<ProbeSource> makeMomentSource(const std::string& directory, Phot
     return std::make_unique<MomentSource>(directory, method);
 }
 
-std::unique_ptr<ProbeSource> makeTextureSource(const std::string& directory) { return std::make_unique<TextureSource>(directory); }
+std::unique_ptr<ProbeSource> makeTextureSource(const std::string& directory, bool eclipseTable)
+{
+    return std::make_unique<TextureSource>(directory, eclipseTable);
+}
 
 } // namespace showmysky::app

@@ -23,6 +23,8 @@ public:
 /// The moments: fast, or by the double-precision twin.
 std::unique_ptr<ProbeSource> makeMomentSource(const std::string& directory, Photometer::Method method);
 /// The baked 4D tables, with the ground (if asked for) from the moments. Spectra where all tables have them, else luminance.
-std::unique_ptr<ProbeSource> makeTextureSource(const std::string& directory);
+///   eclipseTable  eclipses are answered too: higher orders by the model's table where it holds, the rest from the moments
+///   throws        sky::Error: a table is missing
+std::unique_ptr<ProbeSource> makeTextureSource(const std::string& directory, bool eclipseTable);
 
 } // namespace showmysky::app

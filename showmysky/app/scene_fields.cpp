@@ -180,6 +180,8 @@ std::vector<SceneField> makeFields()
         flag("eclipse", scene, "let the Moon hide the Sun", of(&SceneOptions::eclipse)),
         number("eclipse-orders", scene, "scatterings followed through the shadow; 0: as many as the model has",
                of(&SceneOptions::eclipseOrders)),
+        flag("precomputed-eclipse", scene, "with textures: where Sun and Moon stand concentric, take higher orders from the model's table",
+             of(&SceneOptions::precomputedEclipse)),
         flag("eclipse-fine", scene, "finer tables in an eclipse, for stills", of(&SceneOptions::eclipseFine)),
         flag("limb-darkening", scene, "in an eclipse, let the Sun be darker towards its limb",
              of(&SceneOptions::limbDarkening)),

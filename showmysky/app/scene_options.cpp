@@ -79,6 +79,7 @@ SceneSettings SceneOptions::settings(const Sky& sky) const
     settings.source = source;
     settings.eclipse = eclipse ? EclipseMode::on : EclipseMode::off;
     settings.eclipseOrders = static_cast<int>(std::lround(eclipseOrders));
+    settings.precomputedEclipse = precomputedEclipse;
     settings.eclipseFine = eclipseFine;
     settings.limbDarkening = limbDarkening;
     settings.onTheFlySingleScattering = onTheFly;

@@ -11,7 +11,6 @@ if(glfw3_FOUND AND IMGUI_LIBRARY AND IMGUI_INCLUDE_DIR)
     list(REMOVE_ITEM sources ${preview}/without_window.cpp)
     # Where the pointer is in the sky: the projections' own formulas, which the library doesn't export.
     target_sources(showmysky PRIVATE ${sources} ${CMAKE_CURRENT_SOURCE_DIR}/src/view_direction.cpp)
-    target_include_directories(showmysky PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
     target_include_directories(showmysky SYSTEM PRIVATE ${IMGUI_INCLUDE_DIR})
     target_link_libraries(showmysky PRIVATE glfw ${IMGUI_LIBRARY} $<$<BOOL:${STB_LIBRARY}>:${STB_LIBRARY}>
         ${CMAKE_DL_LIBS} nlohmann_json::nlohmann_json)

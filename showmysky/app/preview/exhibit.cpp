@@ -64,8 +64,10 @@ bool Exhibit::update(Clock::time_point now)
                 return false;
             problem_ = computation_->problem();
             computation_.reset();
-            if (problem_.empty())
+            if (problem_.empty()) {
                 beginLoading(modelDirectoryOf(path_));
+                forgetOldModels(modelDirectoryOf(path_));
+            }
         } else if (next_) {
             progress_ = next_->loadStep();
             if (progress_.done) {

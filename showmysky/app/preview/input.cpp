@@ -96,6 +96,11 @@ void putMoonOnSun(SceneOptions& scene)
     scene.moonAzimuth = scene.sunAzimuth;
 }
 
+void addCity(SceneOptions& scene)
+{
+    scene.cities.push_back({30e3, scene.yaw, 8e3, 1, {}});
+}
+
 void Pointer::press(const ButtonPressed& event)
 {
     if (drag_ != Drag::none)

@@ -31,6 +31,8 @@ void zoom(SceneOptions& scene, double steps);
 void limitFieldOfView(SceneOptions& scene);
 /// The Moon's centre in front of the Sun's, seen from the camera.
 void putMoonOnSun(SceneOptions& scene);
+/// A town of 8 km radius, 30 km away in the middle of the picture.
+void addCity(SceneOptions& scene);
 
 /// The pointer between events: what is being dragged.
 class Pointer

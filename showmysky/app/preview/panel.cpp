@@ -81,6 +81,11 @@ void drawPlaces(SceneOptions& scene, const PanelFacts& facts)
     complaint(facts.eclipseRefusal);
     if (slider("orders followed", scene.eclipseOrders, 0, 10, scene.eclipseOrders > 0 ? "%.0f" : "all of the model"))
         scene.eclipseOrders = std::round(scene.eclipseOrders);
+    bool onTheFly = !scene.precomputedEclipse;
+    ImGui::Checkbox("higher orders on the fly", &onTheFly);
+    scene.precomputedEclipse = !onTheFly;
+    if (scene.precomputedEclipse)
+        complaint(facts.eclipseTableNote);
     ImGui::Checkbox("fine tables", &scene.eclipseFine);
     ImGui::SameLine();
     ImGui::Checkbox("limb darkening", &scene.limbDarkening);
@@ -110,6 +115,29 @@ void drawLayers(SceneOptions& scene, const PanelFacts& facts)
     if (scene.lightPollution > 0)
         complaint(facts.pollutionRefusal);
     ImGui::Checkbox("pseudo-mirror instead of the ground", &scene.mirror);
+}
+
+void drawCities(SceneOptions& scene)
+{
+    for (std::size_t i = 0; i < scene.cities.size(); ++i) {
+        auto& city = scene.cities[i];
+        ImGui::PushID(static_cast<int>(i));
+        double distance = city.distance / 1e3, radius = city.radius / 1e3;
+        if (slider("distance, km", distance, 0, 1000, "%.2f", true))
+            city.distance = distance * 1e3;
+        slider("azimuth", city.azimuth, -180, 180, "%.2f");
+        // Not a slider: light around a city of another radius takes a second to prepare.
+        if (ImGui::InputDouble("radius, km", &radius, 1, 0, "%.2f", ImGuiInputTextFlags_EnterReturnsTrue))
+            city.radius = std::clamp(radius, 0.1, 100.) * 1e3;
+        slider("luminance, cd/m^2", city.luminance, 0, 100, "%.3g", true);
+        const bool remove = ImGui::Button("Remove");
+        ImGui::Separator();
+        ImGui::PopID();
+        if (remove)
+            scene.cities.erase(scene.cities.begin() + static_cast<std::ptrdiff_t>(i--));
+    }
+    if (ImGui::Button("Add a city"))
+        addCity(scene);
 }
 
 void drawSun(SceneOptions& scene)
@@ -214,6 +242,8 @@ PanelWishes drawPanel(State& state, const PanelFacts& facts)
     }
     if (section("Tables"))
         drawTables(state.scene, facts);
+    if (section("Cities"))
+        drawCities(state.scene);
     ImGui::Separator();
     ImGui::TextWrapped("Shift or right drag: turn. Ctrl+drag: the Sun. Ctrl+right drag: the Moon. Wheel: zoom. "
                        "Click: the light of a pixel. Tab: hide all this.");

@@ -15,6 +15,7 @@ struct PanelFacts {
     double exposure = 0;                 ///< that the picture has, log10
     std::string refusal;                 ///< why the scene can't be drawn
     std::string eclipseRefusal, pollutionRefusal, texturesRefusal, onTheFlyRefusal; ///< why a switch can't be on
+    std::string eclipseTableNote; ///< why higher orders are followed on the fly though the table is asked for
     std::string obscuration; ///< of the Sun by the Moon, in words
     std::string activity;    ///< what is waited for
     double fraction = 1;     ///< of it

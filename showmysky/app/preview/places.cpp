@@ -1,9 +1,12 @@
 #include "places.hpp"
 
+#include "model/manifest.hpp"
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <vector>
 
 namespace showmysky::app::preview {
 
@@ -55,6 +58,28 @@ fs::path modelDirectoryOf(const fs::path& description)
     const auto whole = fs::weakly_canonical(description, error);
     const std::string name = (error ? description : whole).string();
     return cache / "showmysky" / "models" / (description.stem().string() + "-" + shortName(name));
+}
+
+void forgetOldModels(const fs::path& newest)
+{
+    struct Kept {
+        fs::file_time_type computed;
+        fs::path path;
+    };
+    std::vector<Kept> models;
+    std::error_code error;
+    for (fs::directory_iterator entry(newest.parent_path(), error), end; !error && entry != end; entry.increment(error)) {
+        const fs::path& path = entry->path();
+        std::error_code unknown;
+        if (path == newest || entry->is_symlink(unknown) || !sky::model::isModelDirectory(path.string()))
+            continue;
+        const auto computed = fs::last_write_time(path / "manifest.json", unknown);
+        if (!unknown)
+            models.push_back({computed, path});
+    }
+    std::sort(models.begin(), models.end(), [](const Kept& a, const Kept& b) { return a.computed > b.computed; });
+    for (std::size_t i = mostModels - 1; i < models.size(); ++i)
+        fs::remove_all(models[i].path, error);
 }
 
 } // namespace showmysky::app::preview

@@ -12,4 +12,11 @@ std::filesystem::path configDirectory();
 /// directory.
 std::filesystem::path modelDirectoryOf(const std::filesystem::path& description);
 
+/// Models kept there.
+constexpr std::size_t mostModels = 32;
+
+/// Removes the models beside `newest` that were computed longest ago, until mostModels are left with it. What isn't a model stays, and so
+/// does what can't be removed.
+void forgetOldModels(const std::filesystem::path& newest);
+
 } // namespace showmysky::app::preview

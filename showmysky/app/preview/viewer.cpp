@@ -35,6 +35,21 @@ std::string inWords(const EclipseState& state)
     return text;
 }
 
+/// Why higher orders are followed on the fly; empty where they are looked up.
+std::string whyNoTable(const Sky& sky, const SceneSettings& settings)
+{
+    if (const std::string why = sky.whyUnsupported(settings); !why.empty())
+        return why;
+    if (settings.source != Source::textures)
+        return "Followed on the fly: the model's eclipse table belongs to its 4D textures.";
+    if (sky.usesEclipseTable(settings))
+        return {};
+    char text[160];
+    std::snprintf(text, sizeof text, "Followed on the fly: the table has the Moon on the Sun, %.0f km away, all orders, an even disc.",
+                  sky.moonDistance() / 1e3);
+    return text;
+}
+
 } // namespace
 
 Viewer::Viewer(State state)
@@ -135,7 +150,9 @@ void Viewer::updateRefusals()
         s.onTheFlySingleScattering = true;
     });
     try {
-        known_.obscuration = inWords(sky.eclipseState(settingsFor(sky, state_.scene)));
+        const SceneSettings settings = settingsFor(sky, state_.scene);
+        known_.eclipseTableNote = whyNoTable(sky, settings);
+        known_.obscuration = inWords(sky.eclipseState(settings));
     } catch (const std::exception& error) {
         known_.obscuration = error.what();
     }

@@ -108,7 +108,7 @@ public:
     /// Sun and Moon of any settings, whether they ask for an eclipse or not.   throws settings: the Moon can't be there
     EclipseState eclipseState(const SceneSettings& settings) const;
     /// True if these settings are drawn from the model's eclipse table: SceneSettings::precomputedEclipse asks for it, and Sun and Moon
-    /// stand concentric before the camera, of the radii that the table was made for, up to a quarter of their difference.
+    /// stand concentric before the camera, of the radii that the table was made for, up to 3 % of their difference.
     bool usesEclipseTable(const SceneSettings& settings) const;
     /// Computes a part of what the settings changed: call until done, then draw() doesn't wait. draw() does what is
     /// left.

@@ -182,3 +182,15 @@ TEST_CASE("input: the Moon is put where the Sun is")
     CHECK(hand.scene.moonZenith == 33);
     CHECK(hand.scene.moonAzimuth == -12);
 }
+
+TEST_CASE("input: a city is added in the middle of the picture")
+{
+    Hand hand;
+    hand.scene.yaw = 42;
+    addCity(hand.scene);
+    addCity(hand.scene);
+    REQUIRE(hand.scene.cities.size() == 2);
+    CHECK(hand.scene.cities[1].azimuth == 42);
+    CHECK(hand.scene.cities[1].distance > 2 * hand.scene.cities[1].radius); // not where the camera stands
+    CHECK(hand.scene.cities[1].luminance > 0);
+}

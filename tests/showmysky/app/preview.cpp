@@ -117,6 +117,41 @@ TEST_CASE("places: each description has a model directory of its own in the cach
     CHECK(modelDirectoryOf("/b/earth.atmo").string().rfind("/home/somebody/.cache/", 0) == 0);
 }
 
+TEST_CASE("places: of computed models the last ones are kept, and nothing else is touched")
+{
+    const Scratch scratch;
+    const Variable cache("XDG_CACHE_HOME", scratch.path.string());
+    const auto now = fs::file_time_type::clock::now();
+    const auto model = [&](int age) {
+        const auto path = modelDirectoryOf("/b/" + std::to_string(age) + ".atmo");
+        fs::create_directories(path);
+        write(path / "manifest.json", R"({"format": "sky model", "formatVersion": 1})");
+        write(path / "medium.exr", "air");
+        fs::last_write_time(path / "manifest.json", now - std::chrono::hours(age));
+        return path;
+    };
+    std::vector<fs::path> models;
+    for (int age = 0; age < static_cast<int>(mostModels) + 3; ++age)
+        models.push_back(model(age));
+    const auto parent = models.front().parent_path();
+    fs::create_directories(parent / "photographs");
+    write(parent / "photographs" / "sky.png", "dear");
+    fs::create_directory_symlink(scratch.path, parent / "link");
+
+    // The newest is kept though its file is the oldest: a clock may have been set back.
+    forgetOldModels(models.back());
+    CHECK(fs::exists(models.back()));
+    for (std::size_t i = 0; i + 1 < models.size(); ++i) {
+        CAPTURE(i);
+        CHECK(fs::exists(models[i]) == (i < mostModels - 1));
+    }
+    CHECK(fs::exists(parent / "photographs" / "sky.png"));
+    CHECK(fs::is_symlink(parent / "link"));
+    forgetOldModels(models.back());
+    CHECK(fs::exists(models[mostModels - 2]));
+    forgetOldModels(scratch.path / "nowhere" / "model");
+}
+
 TEST_CASE("watch: edits are told once, whether in place or by a new file")
 {
     const Scratch scratch;

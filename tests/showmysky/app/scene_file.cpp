@@ -46,7 +46,7 @@ TEST_CASE("scene file: every setting comes back as it was written")
     scene.source = Source::textures;
     scene.projection = Projection::fisheye;
     scene.eclipseOrders = 3;
-    scene.eclipse = scene.eclipseFine = scene.limbDarkening = scene.onTheFly = scene.mirror = scene.unfiltered = true;
+    scene.eclipse = scene.precomputedEclipse = scene.eclipseFine = scene.limbDarkening = scene.onTheFly = scene.mirror = scene.unfiltered = true;
     scene.development = {ToneCurve::linear,    false,         -3.25, ColourMode::hue, false, 0.5,
                          Dithering::blueNoise, Depth::bits565};
     SceneOptions back;
