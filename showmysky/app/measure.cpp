@@ -90,6 +90,14 @@ public:
         scene.layers.multipleScattering = scene.layers.zeroOrder = false;
         framesPerSecond("eclipse of order 1, Moon moving", moveMoon);
         scene = {};
+        scene.layers.lightPollution = true;
+        scene.cities = {{30e3, 0.5, 8e3, 1, std::vector<double>(sky.wavelengths().size(), 1.)}};
+        scene.sun.zenithAngle = 2;
+        std::printf("%-32s %.2f s\n", "city of a new radius", secondsOf(draw));
+        scene.cities[0].distance = 31e3;
+        std::printf("%-32s %.2f s\n", "city of that radius elsewhere", secondsOf(draw));
+        framesPerSecond("city, camera turning", [&] { camera.yaw = 0.001 * frame; });
+        scene = {};
         if (sky.hasSource(Source::textures)) {
             scene.source = Source::textures;
             scene.altitude = 0;
