@@ -18,6 +18,9 @@ namespace {
 constexpr std::uintmax_t largestDescription = 16u << 20; // bytes
 constexpr std::size_t longestName = 64;
 constexpr std::int64_t mostScatteringTexels = std::int64_t{1} << 30;
+// What tables of floats can hold, times sharp phase functions and luminous efficacies; far beyond any star and any particle.
+constexpr double mostIrradiance = 1e20;  // W m^-2 nm^-1
+constexpr double mostCrossSection = 1e6; // m^2
 
 std::string fromTo(int min, int max)
 {
@@ -52,10 +55,10 @@ public:
         readScatteringOrders(valueOf(fields, key::scatteringOrders));
         readWavelengths(valueOf(fields, key::wavelengths));
 
-        description_.solarIrradiance = readSpectrum(spectra_, fields.all(key::solarIrradiance), {});
+        description_.solarIrradiance = readSpectrum(spectra_, fields.all(key::solarIrradiance), {mostIrradiance});
         description_.groundAlbedo = readSpectrum(spectra_, fields.all(key::groundAlbedo), {1});
         if (fields.find(key::lightPollution))
-            description_.lightPollutionRadiance = readSpectrum(spectra_, fields.all(key::lightPollution), {});
+            description_.lightPollutionRadiance = readSpectrum(spectra_, fields.all(key::lightPollution), {mostIrradiance});
         for (const Entry& entry : entries_)
             readSpecies(entry);
         return std::move(description_);
@@ -335,9 +338,9 @@ private:
         ValueReader reader(source_, entry);
         const double value = reader.quantity(Dimension::Area);
         reader.expectEnd();
-        if (!(value >= 0) || !std::isfinite(value))
+        if (!(value >= 0 && value <= mostCrossSection))
             source_.fail(entry.valuePlace,
-                         "`cross section at 1 um` is " + inBackticks(entry.value) + "; it must be from 0 m^2 up");
+                         "`cross section at 1 um` is " + inBackticks(entry.value) + "; it must be from 0 m^2 to 1 km^2");
         return value;
     }
 
@@ -355,7 +358,7 @@ private:
     Absorber readAbsorber(const Entry& section, const std::string& name)
     {
         const Fields fields = speciesFields(section, "an absorber", absorberKeys(), absorberKeys());
-        return {name, codeOf(fields, key::numberDensity), readSpectrum(spectra_, fields.all(key::crossSection), {})};
+        return {name, codeOf(fields, key::numberDensity), readSpectrum(spectra_, fields.all(key::crossSection), {mostCrossSection})};
     }
 
     const Source& source_;

@@ -265,6 +265,27 @@ void addPhaseFunctions(const atmo::Description& description, Evaluator& evaluato
     }
 }
 
+/// Largest vertical optical depth of a species. From there on along the ground the air of a large planet has 1e11.
+constexpr double mostOpticalDepth = 1e6;
+
+void checkOpticalDepths(const atmo::Description& description, const physics::Medium& medium)
+{
+    for (std::size_t s = 0; s < medium.species.size(); ++s) {
+        const auto& species = medium.species[s];
+        double column = 0;
+        for (std::size_t k = 0; k + 1 < medium.altitudes.size(); ++k)
+            column += 0.5 * (species.numberDensity[k] + species.numberDensity[k + 1]) * (medium.altitudes[k + 1] - medium.altitudes[k]);
+        const auto& sigma = species.extinctionCrossSection;
+        const double depth = column * *std::max_element(sigma.begin(), sigma.end());
+        if (!(depth <= mostOpticalDepth)) {
+            const auto& block = densityBlock(description, s);
+            throw AtmoError({block.file, block.firstLine, 0}, "with this number density \"" + species.name +
+                                                                  "\" has a vertical optical depth of " + brief(depth) +
+                                                                  "; it must be at most " + brief(mostOpticalDepth));
+        }
+    }
+}
+
 } // namespace
 
 physics::Medium evaluateMedium(const atmo::Description& description, const gl::Api& api, std::vector<std::string>& warnings)
@@ -301,6 +322,7 @@ physics::Medium evaluateMedium(const atmo::Description& description, const gl::A
             medium.species[s].numberDensity.push_back(double(sample.densities[s]));
     }
     medium.altitudes.back() = description.atmosphereHeight;
+    checkOpticalDepths(description, medium);
     addPhaseFunctions(description, evaluator, medium, warnings);
     return medium;
 }

@@ -32,7 +32,7 @@ public:
         d.wavelengths.count = whole(1, mostWavelengths);
         d.wavelengths.minNm = logUniform(10, 1000);
         d.wavelengths.maxNm = d.wavelengths.count == 1 ? d.wavelengths.minNm : logUniform(1001, 1e5);
-        d.solarIrradiance = spectrum(d, 1e30);
+        d.solarIrradiance = spectrum(d, 1e20);
         d.groundAlbedo = spectrum(d, 1);
         if (coin())
             d.lightPollutionRadiance = spectrum(d, 1e-3);

@@ -172,3 +172,20 @@ TEST_CASE("medium: every example can be evaluated, and its phase functions scatt
     }
     CHECK(examples >= 8);
 }
+
+TEST_CASE("medium: an optical depth beyond all that can be computed is named with its line", "[gl]")
+{
+    const auto context = gl::testing::context();
+    if (!context)
+        return;
+    std::vector<std::string> warnings;
+    const std::string code = "return 3e38*exp(-altitude/(8.0*km));";
+    const auto text = sample::with(molecules, code);
+    try {
+        solver::evaluateMedium(sample::parse(text), context->api(), warnings);
+        FAIL("was accepted");
+    } catch (const AtmoError& error) {
+        CHECK(error.location().line == lineOf(text, code));
+        CHECK_THAT(error.what(), Catch::Contains("optical depth of ") && Catch::Contains("at most 1e+06"));
+    }
+}
