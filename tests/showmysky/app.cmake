@@ -12,15 +12,14 @@ target_link_libraries(test_showmysky_app PRIVATE sky_options sky_test_main showm
     nlohmann_json::nlohmann_json CLI11::CLI11)
 catch_discover_tests(test_showmysky_app TEST_PREFIX "showmysky app: ")
 
-# The window itself, on a screen in memory. Label `window`: it needs Xvfb, xdotool and NumPy, and is skipped without them.
-find_package(Python3 QUIET COMPONENTS Interpreter)
-if(SHOWMYSKY_HAS_WINDOW AND Python3_FOUND)
+# The window itself, on a screen in memory. Label `window`: it needs Xvfb and xdotool, and is skipped without them.
+if(SHOWMYSKY_HAS_WINDOW AND SKY_PYTHON)
     add_test(NAME "showmysky: the window"
-             COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/preview_window.py $<TARGET_FILE:showmysky>
+             COMMAND ${SKY_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/preview_window.py $<TARGET_FILE:showmysky>
                      $<TARGET_FILE:calcmysky> ${model} ${PROJECT_SOURCE_DIR}/examples/earth-small.atmo
                      ${CMAKE_CURRENT_BINARY_DIR}/window)
     set_tests_properties("showmysky: the window" PROPERTIES
         FIXTURES_REQUIRED earth_small LABELS window PROCESSORS 2 SKIP_RETURN_CODE 77)
 else()
-    message(STATUS "The window's test is left out: GLFW, Dear ImGui or Python is missing")
+    message(STATUS "The window's test is left out: GLFW, Dear ImGui or a Python with NumPy is missing")
 endif()

@@ -190,6 +190,34 @@ TEST_CASE("photometry: sunlight above the air is the solar spectrum, and reddens
     CHECK(*std::max_element(sun.begin(), sun.end()) == 0);
 }
 
+TEST_CASE("photometry: sunlight on a horizontal surface is the sum over the disc, through sunset")
+{
+    // A fine quadrature over the elevation: chord times transmittance times sine, over the disc's area.
+    const auto& p = fast();
+    const std::size_t count = p.wavelengthsNm().size();
+    const double radius = p.sunAngularRadius();
+    std::vector<double> found(count), t(count), expected(count);
+    for (const double altitude : {0., 3000.})
+        for (const double centre : {30. * degree, 2. * degree, 0.5 * radius, 0., -0.5 * radius, -0.9 * radius}) {
+            CAPTURE(altitude, centre);
+            std::fill(expected.begin(), expected.end(), 0.);
+            constexpr int slices = 2000;
+            for (int i = 0; i < slices; ++i) {
+                const double x = 2 * (i + 0.5) / slices - 1, elevation = centre + radius * x;
+                if (elevation <= 0)
+                    continue;
+                p.transmittance(altitude, 90 * degree - elevation, t.data());
+                for (std::size_t w = 0; w < count; ++w)
+                    expected[w] += 4 / (180 * degree) / slices * std::sqrt(1 - x * x) * t[w] * std::sin(elevation) * p.solarIrradiance()[w];
+            }
+            p.horizontalIrradiance(altitude, 90 * degree - centre, found.data(), nullptr);
+            for (std::size_t w = 0; w < count; ++w)
+                CHECK(found[w] == Approx(expected[w]).epsilon(2e-3)); // what the slices at the limbs leave
+        }
+    p.horizontalIrradiance(0, 90 * degree + 1.001 * radius, found.data(), nullptr);
+    CHECK(*std::max_element(found.begin(), found.end()) == 0);
+}
+
 TEST_CASE("photometry: a ray from space sees what it sees from where it enters the air")
 {
     const auto& p = fast();

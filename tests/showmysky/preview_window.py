@@ -15,6 +15,7 @@ import zlib
 SKIPPED = 77
 WIDTH, HEIGHT = 900, 600
 PANEL, STATUS = 345, 60  # what widgets cover at the left and at the bottom, pixels
+ADD_A_CITY, LUMINANCE, REMOVE = (47, 522), (100, 472), (30, 495)  # widgets, once the panel is scrolled to its end
 PATIENCE = 20  # seconds for anything to happen on a busy machine
 
 try:
@@ -112,6 +113,16 @@ class Hands:
         for key in reversed(keys):
             self.do("keyup", key)
 
+    def press(self, place):
+        """A click as long as hold() holds keys."""
+        self.do("mousemove", *place)
+        time.sleep(0.3)
+        self.do("mousedown", 1)
+        time.sleep(0.5)
+        self.do("mouseup", 1)
+        time.sleep(0.3)
+        self.rest()
+
     def click(self, place, button=1, times=1):
         self.do("mousemove", *place)
         for _ in range(times):
@@ -130,9 +141,9 @@ class Window:
         self.process = subprocess.Popen([SHOWMYSKY, *arguments], stdout=self.log, stderr=self.log,
                                         env=dict(os.environ, DISPLAY=screen.display))
 
-    def wait(self, condition, what):
+    def wait(self, condition, what, patience=PATIENCE):
         """Until the condition holds for a screenshot and nothing moves any more."""
-        deadline = time.monotonic() + PATIENCE
+        deadline = time.monotonic() + patience
         before = self.screen.look()
         still = 0
         while time.monotonic() < deadline:
@@ -147,10 +158,13 @@ class Window:
                 return now
             before = now
         write_png("at-failure.png", before)
-        raise Failure(f"in {PATIENCE} s it never came true that {what}; see at-failure.png")
+        raise Failure(f"in {patience} s it never came true that {what}; see at-failure.png")
 
-    def appears(self):
-        image = self.wait(lambda image: np.median(sky(image)) > 50, "the sky appears")
+    def appears(self, night=False):
+        def seen(image):  # beside the panel it is grey before there is a sky, and black at night
+            return image[:40, :PANEL].max() > 200 and np.median(sky(image)) == 0 if night else np.median(sky(image)) > 50
+
+        image = self.wait(seen, "the sky appears")
         window = subprocess.run(["xdotool", "search", "--pid", str(self.process.pid)], env=self.hands.environment,
                                 capture_output=True, text=True, check=True).stdout.split()[-1]
         self.hands.do("windowfocus", window)
@@ -202,7 +216,7 @@ def preferences(**lines):
 def test_scene(screen):
     """The Sun, the camera, the wheel, a click, typing, a bare picture, a restart."""
     preferences(window_width=WIDTH, window_height=HEIGHT, dithering="none", sun_zenith=60, sun_azimuth=15, pitch=30)
-    window = Window(screen, MODEL)
+    window = Window(screen, "model")
     try:
         hands = window.hands
         start = window.appears()
@@ -257,7 +271,7 @@ def test_scene(screen):
                               capture_output=True, text=True)
     expect(rendered.returncode == 0, "render did not take the scene: " + rendered.stderr)
 
-    window = Window(screen, MODEL)
+    window = Window(screen, "model")
     try:
         again = window.appears()
         expect(difference(sky(again), sky(zoomed)) == 0, "after a restart the picture is another one")
@@ -298,6 +312,55 @@ def test_description(screen):
         window.close()
 
 
+def test_cities(screen):
+    """A city is added, made brighter, saved with the scene, and removed, by the widgets at the panel's end."""
+    preferences(window_width=WIDTH, window_height=HEIGHT, dithering="none", exposure=1, sun_zenith=130, pitch=10)
+    window = Window(screen, "model")
+    try:
+        hands = window.hands
+
+        def saved_city():
+            if os.path.exists("sky.scene"):
+                os.remove("sky.scene")
+            hands.do("key", "ctrl+s")
+            deadline = time.monotonic() + PATIENCE
+            while not os.path.exists("sky.scene") and time.monotonic() < deadline:
+                time.sleep(0.1)
+            time.sleep(0.2)
+            scene = dict(line.rstrip("\n").split(":", 1) for line in open("sky.scene") if not line.startswith("#"))
+            return dict(part.split("=") for part in scene["city"].strip().split(",") if part)
+
+        def panel_end(what):
+            """Scrolls the panel until it goes no farther: on a busy machine turns of the wheel are lost."""
+            before = None
+            while True:
+                hands.do("mousemove", PANEL - 12, 300)  # beside the widgets
+                hands.do("click", "--repeat", 20, "--delay", 20, 5)
+                hands.rest()
+                now = window.wait(lambda image: True, what)
+                if before is not None and difference(before[:, :PANEL], now[:, :PANEL]) == 0:
+                    return
+                before = now
+
+        dark = window.appears(night=True)
+        panel_end("the panel ends")
+        hands.press(ADD_A_CITY)
+        lit = window.wait(lambda image: np.median(sky(image)) > np.median(sky(dark)) + 2, "a city is added",
+                          3 * PATIENCE)  # a second or two of work on an idle machine, without a frame between
+        city = saved_city()
+        expect(float(city["distance"]) == 30e3 and float(city["radius"]) == 8e3, f"the scene has a city {city}")
+        panel_end("the city has widgets")
+        hands.drag(LUMINANCE, (LUMINANCE[0] + 65, LUMINANCE[1]))
+        window.wait(lambda image: np.median(sky(image)) > np.median(sky(lit)) + 2, "the city is brighter")
+        expect(float(saved_city()["luminance"]) > float(city["luminance"]), "dragging the luminance did not raise it")
+        hands.press(REMOVE)
+        window.wait(lambda image: difference(sky(image), sky(dark)) == 0, "the city is removed")
+        expect(saved_city() == {}, "the scene still has a city")
+        window.quit()
+    finally:
+        window.close()
+
+
 def test_no_window():
     """Without a screen: one sentence that says what to do."""
     environment = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
@@ -313,11 +376,13 @@ def main():
     os.chdir(SCRATCH)
     os.environ.update(XDG_CONFIG_HOME=os.path.abspath("config"), XDG_CACHE_HOME=os.path.abspath("cache"),
                       LIBGL_ALWAYS_SOFTWARE="1", PATH=os.path.dirname(CALCMYSKY) + ":" + os.environ["PATH"])
+    os.symlink(MODEL, "model")  # a name that takes one line of the panel, wherever the tree is
     test_no_window()
     screen = Screen(os.path.abspath("screen"))
     try:
         test_scene(screen)
         test_description(screen)
+        test_cities(screen)
     finally:
         screen.close()
 
