@@ -13,8 +13,7 @@ constexpr const char* eclipseTable = "eclipsed-double-scattering";
 constexpr double eclipseTableMargin = 0.03;
 
 /// True if bodies stand as the table has them: the separation of the discs and the differences of their radii from the table's add up to
-/// at most eclipseTableMargin. Farther aside one side of the horizon is brighter than the other, which no table of concentric discs
-/// knows: 13 % at 0.2 (docs/eclipses.md).
+/// at most eclipseTableMargin. Farther aside one side of the horizon is brighter than the other, which no table of concentric discs knows.
 ///   throws  RangeError where the Moon can't be there
 bool eclipseTableFits(const Manifest& manifest, const physics::EclipseBodies& bodies);
 

@@ -126,7 +126,7 @@ void drawCities(SceneOptions& scene)
         if (slider("distance, km", distance, 0, 1000, "%.2f", true))
             city.distance = distance * 1e3;
         slider("azimuth", city.azimuth, -180, 180, "%.2f");
-        // Not a slider: light around a city of another radius takes a second to prepare.
+        // Not a slider: light around a city of another radius takes seconds to prepare.
         if (ImGui::InputDouble("radius, km", &radius, 1, 0, "%.2f", ImGuiInputTextFlags_EnterReturnsTrue))
             city.radius = std::clamp(radius, 0.1, 100.) * 1e3;
         slider("luminance, cd/m^2", city.luminance, 0, 100, "%.3g", true);
