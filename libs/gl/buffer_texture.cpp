@@ -1,10 +1,18 @@
 #include "gl/buffer_texture.hpp"
 
+#include "base/error.hpp"
+
 namespace sky::gl {
 
 BufferTexture::BufferTexture(const Api& api, std::string label, const Buffer& buffer, const int components)
     : Object(api, Kind::texture, std::move(label))
 {
+    // Beyond its limit a driver reads zeros, and says nothing.
+    const std::size_t texels = buffer.bytes() / (static_cast<std::size_t>(components) * sizeof(float)), most = maxTexels(api);
+    if (texels > most)
+        throw GlError("The table \"" + buffer.label() + "\" has " + std::to_string(texels) +
+                      " texels, but this driver's shaders can't see more than " + std::to_string(most) +
+                      " of a buffer. Choose another device, or a lower quality.");
     GLint before = 0;
     api->GetIntegerv(GL_TEXTURE_BINDING_BUFFER, &before);
     api->BindTexture(GL_TEXTURE_BUFFER, name());

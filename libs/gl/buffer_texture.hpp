@@ -10,6 +10,7 @@ class BufferTexture : public Object
 {
 public:
     /// \param components 1 or 4 floats a texel
+    /// throws GlError where the buffer has more than maxTexels
     BufferTexture(const Api& api, std::string label, const Buffer& buffer, int components = 4);
     /// Binds to texture unit `unit`, counted from 0, and leaves that unit active.
     void bindUnit(GLuint unit) const;

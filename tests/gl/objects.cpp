@@ -1,8 +1,9 @@
 #include "context_for_tests.hpp"
 
 #include <numeric>
+#include <utility>
 
-#include "gl/buffer.hpp"
+#include "gl/buffer_texture.hpp"
 #include "gl/framebuffer.hpp"
 #include "gl/texture.hpp"
 
@@ -122,4 +123,31 @@ TEST_CASE("objects: carry their labels to the driver's debugger", "[gl]")
     api->GetObjectLabel(GL_FRAMEBUFFER, framebuffer.name(), sizeof label, nullptr, label);
     CHECK(std::string(label) == "sky view");
     gl::checkErrors(api, "test");
+}
+
+namespace {
+
+PFNGLGETINTEGERVPROC driversGetInteger = nullptr;
+
+void GLAD_API_PTR smallLimit(GLenum what, GLint* value)
+{
+    driversGetInteger(what, value);
+    if (what == GL_MAX_TEXTURE_BUFFER_SIZE)
+        *value = 1000;
+}
+
+} // namespace
+
+TEST_CASE("buffer textures: a driver that shows shaders less of a buffer than they need is refused", "[gl]")
+{
+    const auto context = gl::testing::context();
+    if (!context)
+        return;
+    const gl::Api& api = context->api();
+    auto& functions = const_cast<GladGLContext&>(*api.operator->());
+    driversGetInteger = std::exchange(functions.GetIntegerv, &smallLimit);
+    const gl::Buffer whole(api, "whole", ramp(4000)), more(api, "more", ramp(4004));
+    CHECK_NOTHROW(gl::BufferTexture(api, "view", whole));
+    CHECK_THROWS_WITH(gl::BufferTexture(api, "view", more), Catch::Contains("\"more\" has 1001 texels") && Catch::Contains("more than 1000"));
+    CHECK_THROWS_AS(gl::BufferTexture(api, "view", whole, 1), GlError);
 }
