@@ -1,4 +1,5 @@
-// Angles from cosines, with our own arcsine: drivers' differ by up to 1e-4 rad, a third of what a pixel of dusk needs.
+// Angles from cosines and back, with functions of our own: drivers' arcsines differ by up to 1e-4 rad, a third of what a pixel of dusk
+// needs, and their sines may by 5e-4 (the Vulkan specification allows 2^-11).
 
 const float halfPi = 1.57079632679;
 
@@ -15,6 +16,21 @@ float elevationOf(float mu)
     float e = steep ? halfPi - 2.0 * p : p;
     return mu < 0.0 ? -e : e;
 }
+
+// Cosine and sine, -100 <= x <= 100; absolute error < 2e-7. Reduction to the nearest quarter turn, whose length comes in three parts
+// (Cody & Waite 1980); minimax polynomials of the Cephes library (Moshier 1992, sinf and cosf).
+vec2 cosineAndSine(float x)
+{
+    float k = floor(x / halfPi + 0.5);
+    float r = ((x - k * 1.5703125) - k * 4.83751296997e-4) - k * 7.549789954892e-8, z = r * r;
+    float s = r + r * z * ((-1.9515295891e-4 * z + 8.3321608736e-3) * z - 1.6666654611e-1);
+    float c = 1.0 - 0.5 * z + z * z * ((2.443315711809948e-5 * z - 1.388731625493765e-3) * z + 4.166664568298827e-2);
+    int turn = int(k) & 3;
+    vec2 v = (turn & 1) == 0 ? vec2(c, s) : vec2(-s, c);
+    return turn > 1 ? -v : v;
+}
+
+float sine(float x) { return cosineAndSine(x).y; }
 
 // Inverse hyperbolic sine; the driver's own may lose its digits for negative arguments.
 float inverseSinh(float x)

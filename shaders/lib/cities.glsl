@@ -19,8 +19,9 @@ CityPlace placeAmongCities(vec3 direction, float elevation, float horizon, float
     float below = horizon - elevation;
     if (below > 0.0) {
         float cosineDip = 1.0 / sqrt(1.0 + dipTangent * dipTangent);
-        float sineView = sin(-elevation), cosineView = cos(elevation);
-        float sineThere = sqrt(max(0.0, sin(below - 2.0 * horizon) * sin(below))) / cosineDip, cosineThere = cosineView / cosineDip;
+        vec2 view = cosineAndSine(elevation);
+        float sineView = -view.y, cosineView = view.x;
+        float sineThere = sqrt(max(0.0, sine(below - 2.0 * horizon) * sine(below))) / cosineDip, cosineThere = cosineView / cosineDip;
         float both = sineView * cosineThere + cosineView * sineThere;
         place.angle = elevationOf(clamp(cosineView * cosineView * dipTangent * dipTangent / max(both, 1e-9), 0.0, 1.0));
     }
@@ -30,6 +31,6 @@ CityPlace placeAmongCities(vec3 direction, float elevation, float horizon, float
 // `disc`: angle of the middle, azimuth, radius. Haversines, which keep their digits where cities are small.
 bool insideCity(CityPlace place, vec3 disc)
 {
-    float along = sin(0.5 * (place.angle - disc.x)), across = sin(0.5 * (place.azimuth - disc.y)), edge = sin(0.5 * disc.z);
-    return along * along + sin(place.angle) * sin(disc.x) * across * across <= edge * edge;
+    float along = sine(0.5 * (place.angle - disc.x)), across = sine(0.5 * (place.azimuth - disc.y)), edge = sine(0.5 * disc.z);
+    return along * along + sine(place.angle) * sine(disc.x) * across * across <= edge * edge;
 }

@@ -18,10 +18,12 @@ vec3 viewDirection(vec2 position)
         float angle = length(p);
         if (angle > 2.0 * halfPi)
             return vec3(0.0);
-        float scale = angle > 1e-6 ? sin(angle) / angle : 1.0;
-        return cameraAxes * vec3(p * scale, cos(angle));
+        vec2 turned = cosineAndSine(angle);
+        float scale = angle > 1e-6 ? turned.y / angle : 1.0;
+        return cameraAxes * vec3(p * scale, turned.x);
     }
     if (abs(p.y) > halfPi || abs(p.x) > 2.0 * halfPi)
         return vec3(0.0);
-    return cameraAxes * vec3(cos(p.y) * sin(p.x), sin(p.y), cos(p.y) * cos(p.x));
+    vec2 across = cosineAndSine(p.x), up = cosineAndSine(p.y);
+    return cameraAxes * vec3(up.x * across.y, up.y, up.x * across.x);
 }

@@ -23,7 +23,8 @@ void lookIntoMirror(inout vec3 direction, inout float elevation)
     if (!mirror || elevation >= horizon)
         return;
     elevation = 2.0 * horizon - elevation;
-    direction = vec3(direction.xy / max(length(direction.xy), 1e-7) * cos(elevation), sin(elevation));
+    vec2 turned = cosineAndSine(elevation);
+    direction = vec3(direction.xy / max(length(direction.xy), 1e-7) * turned.x, turned.y);
 }
 
 // Luminance of a direction (unit vector); `shares`: how much of each table's light counts.

@@ -98,8 +98,8 @@ inline std::vector<HardCase> hardCases()
         haze.phaseFunction[k] = henyeyGreenstein(0.95, sharp.scatteringAngles[k]);
     return {{"sample Earth", earth, 5, 3},
             {"the same, 10 000 times thinner", thin, 5, 3},
-            {"cloud of optical depth 50", cloud(50), 12, 3},
-            {"haze with g = 0.95", sharp, 12, 3},
+            {"cloud of optical depth 10", cloud(10), 8, 2},
+            {"haze with g = 0.95", sharp, 8, 2},
             {"planet of 1e10 m, 10 km of air", molecules(1e10, 10e3, 1e3), 2, 3},
             {"planet of 100 km, 60 km of air", molecules(100e3, 60e3, 8e3), 2, 3}};
 }

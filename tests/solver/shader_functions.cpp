@@ -72,6 +72,26 @@ TEST_CASE("shader: elevation from its sine", "[gl]")
     }
 }
 
+TEST_CASE("shader: cosine and sine", "[gl]")
+{
+    const auto context = gl::testing::context();
+    if (!context)
+        return;
+    std::vector<Vec4> inputs;
+    for (int i = -800; i <= 800; ++i)
+        inputs.push_back({static_cast<float>(i * pi / 100), 0, 0, 0}); // four turns, and all multiples of an eighth
+    for (const float x : {1e-30F, 1e-4F, 0.785398F, 0.7853982F, 99.F})
+        for (const float sign : {-1.F, 1.F})
+            inputs.push_back({sign * x, 0, 0, 0});
+    const auto cosines = evaluate(context->api(), "lib/angles.glsl", "cosineAndSine(x.x).x", inputs);
+    const auto sines = evaluate(context->api(), "lib/angles.glsl", "sine(x.x)", inputs);
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+        INFO("x " << inputs[i][0]);
+        CHECK(double(cosines[i]) == Approx(std::cos(double(inputs[i][0]))).epsilon(0).margin(2e-7));
+        CHECK(double(sines[i]) == Approx(std::sin(double(inputs[i][0]))).epsilon(0).margin(2e-7));
+    }
+}
+
 TEST_CASE("shader: inverse hyperbolic sine", "[gl]")
 {
     const auto context = gl::testing::context();
