@@ -78,7 +78,7 @@ precision highp sampler3D;
 uniform sampler3D aerial;
 uniform vec2 aerialPlanet;    // radius, top of the atmosphere, m
 uniform float aerialAltitude; // of the camera, m
-uniform vec3 aerialSize;      // azimuths, views of one half, distances
+uniform vec3 aerialSize;      // azimuths (in an eclipse all around), views of one half, distances
 uniform vec4 horizontalSunlight;  // of a horizontal surface, lx
 uniform vec4 facingSunlight;       // of a surface that faces the Sun, lx
 uniform vec4 horizontalSkylight;  // of a horizontal surface, lx
@@ -90,7 +90,7 @@ struct AerialPlace {
 
 AerialPlace aerialPlaceOf(vec3 direction, float elevation, float distance)
 {
-    SkyViewAxes axes = SkyViewAxes(sunDirection, horizon, inverseRanges, aerialSize.xy, false, vec4(0.0), vec3(0.0));
+    SkyViewAxes axes = SkyViewAxes(sunDirection, horizon, inverseRanges, aerialSize.xy, WHOLE_TURN, vec4(0.0), vec3(0.0));
     SkyViewPlace place = placeInSkyView(axes, direction, elevation);
     bool ground = elevation < horizon;
     AirSpan span = spanInAir(Planet(aerialPlanet.x, aerialPlanet.y), aerialAltitude, direction.z, ground);

@@ -66,7 +66,7 @@ void Aerial::set(AerialScene scene)
     scene_ = std::move(scene);
     whole_ = scene_.whole.empty() ? ViewTable(halfViews, azimuths) : resampled(scene_.whole, halfViews, azimuths);
     sines_ = viewSines(atmosphere_.planet(), scene_.altitude, halfViews);
-    texels_.assign(static_cast<std::size_t>(tables(atmosphere_.scatterers()) * distances * 2 * halfViews * azimuths), Texel{});
+    texels_.assign(static_cast<std::size_t>(tables(atmosphere_.scatterers()) * distances * 2 * halfViews * columns()), Texel{});
     done_ = 0;
 }
 
@@ -82,9 +82,9 @@ bool Aerial::step(int lines)
     return done_ == 2 * halfViews;
 }
 
-Texel& Aerial::at(int table, int distance, int view, int azimuth)
+Texel& Aerial::at(int table, int distance, int view, int column)
 {
-    return texels_[static_cast<std::size_t>(((table * distances + distance) * 2 * halfViews + view) * azimuths + azimuth)];
+    return texels_[static_cast<std::size_t>(((table * distances + distance) * 2 * halfViews + view) * columns() + column)];
 }
 
 Texel Aerial::luminance(const std::vector<double>& radiance) const
@@ -148,7 +148,7 @@ void Aerial::trace(int view, physics::RayTracer& tracer)
         Texel depth{};
         for (std::size_t c = 0; c < 4; ++c)
             depth[c] = through[c] > dark * white[c] ? -std::log(through[c] / white[c]) : static_cast<float>(mostDepth);
-        for (int a = 0; a < azimuths; ++a)
+        for (int a = 0; a < columns(); ++a)
             at(atmosphere_.scatterers() + 1, k, view, a) = depth;
     }
     for (Texel& share : columnShares)
@@ -168,14 +168,17 @@ void Aerial::growLight(int view, double mu, const Line& single, const Line& mult
     std::vector<double> light(wavelengths), ratio(wavelengths), part(wavelengths);
     std::vector<Texel> grown(distances);
     // Shares of the last of `grown`, or of more than it.
-    const auto store = [&](int table, int azimuth, const Texel& total) {
+    const auto store = [&](int table, int column, const Texel& total) {
         for (int k = 0; k < distances; ++k)
             for (std::size_t c = 0; c < 4; ++c)
-                at(table, k, view, azimuth)[c] = total[c] > dark ? std::clamp(grown[static_cast<std::size_t>(k)][c] / total[c], 0.f, 1.f)
+                at(table, k, view, column)[c] = total[c] > dark ? std::clamp(grown[static_cast<std::size_t>(k)][c] / total[c], 0.f, 1.f)
                                                                  : columnShares[static_cast<std::size_t>(k)][c];
     };
-    for (int a = 0; a < azimuths; ++a) {
-        const double nu = std::clamp(mu * muSun + sines * std::cos(pi * a / (azimuths - 1)), -1., 1.);
+    const double radius = atmosphere_.planet().radius + scene_.altitude, flat = std::sqrt(std::max(0., 1 - mu * mu));
+    for (int a = 0; a < columns(); ++a) {
+        const int fromSun = scene_.sunlight ? a - (azimuths - 1) : a; // columns
+        const double relative = pi * fromSun / (azimuths - 1), nu = std::clamp(mu * muSun + sines * std::cos(relative), -1., 1.);
+        const std::array<double, 3> direction{flat * std::cos(scene_.sunAzimuth + relative), flat * std::sin(scene_.sunAzimuth + relative), mu};
         std::vector<double> lit(stride, 0.);
         std::vector<std::vector<Texel>> singles(scatterers, std::vector<Texel>(distances, Texel{}));
         std::vector<std::vector<double>> ratios(scatterers, std::vector<double>(wavelengths));
@@ -187,6 +190,14 @@ void Aerial::growLight(int view, double mu, const Line& single, const Line& mult
         for (std::size_t n = 0; n < single.nodes.size(); ++n) {
             const auto& node = single.nodes[n];
             sun_.transmittance(node.altitude, std::clamp(node.sunScale * muSun + node.nuScale * nu, -1., 1.), light.data());
+            if (scene_.sunlight) {
+                const double distance = radius * node.nuScale / node.sunScale;
+                const auto left = static_cast<double>(scene_.sunlight({static_cast<float>(distance * direction[0]),
+                                                                       static_cast<float>(distance * direction[1]),
+                                                                       static_cast<float>(distance * direction[2])}));
+                for (double& value : light)
+                    value *= left;
+            }
             for (std::size_t i = 0; i < scatterers; ++i)
                 for (std::size_t w = 0; w < wavelengths; ++w)
                     lit[i * wavelengths + w] += single.columns[n * stride + i * wavelengths + w] * light[w];
@@ -213,7 +224,7 @@ void Aerial::growLight(int view, double mu, const Line& single, const Line& mult
             }
         }
         Texel total = grown.back();
-        const Texel& seen = whole_.at(view, a);
+        const Texel& seen = whole_.at(view, std::abs(fromSun));
         if (view >= halfViews)
             total = seen; // with the ground
         else if (scene_.glow)

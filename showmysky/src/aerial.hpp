@@ -10,6 +10,7 @@
 #include "physics/ray.hpp"
 #include "settings_used.hpp"
 #include "sky_view.hpp"
+#include <functional>
 
 namespace showmysky {
 
@@ -20,6 +21,9 @@ struct AerialScene {
     std::vector<Texel> weights; ///< X, Y, Z, scotopic of unit radiance per unit solar irradiance, [wavelength]
     ViewTable whole;            ///< SkyView::whole without any Moon: what light before the ground is a share of
     bool glow = false;          ///< some of `whole` isn't the Sun's light
+    /// In an eclipse: the share of the Sun's light that is left at a point in the camera's frame, m; empty without one.
+    std::function<float(const std::array<float, 3>&)> sunlight{};
+    double sunAzimuth = 0; ///< in the frame, from x to y; matters in an eclipse
 };
 
 class Aerial
@@ -35,7 +39,9 @@ public:
     /// Follows some more lines; true once all are done.
     bool step(int lines);
 
-    /// [table][distance][view][azimuth]. Tables: shares of SkyView::whole and of each scatterer, 0..1; last the optical depth of
+    /// `azimuths` of the half turn from the Sun's; in an eclipse of the whole turn, from -pi to pi.
+    int columns() const { return scene_.sunlight ? 2 * azimuths - 1 : azimuths; }
+    /// [table][distance][view][column]. Tables: shares of SkyView::whole and of each scatterer, 0..1; last the optical depth of
     /// light with the Sun's spectrum.
     const std::vector<Texel>& texels() const { return texels_; }
     static int tables(int scatterers) { return scatterers + 2; }
@@ -50,7 +56,7 @@ private:
     void trace(int view, sky::physics::RayTracer& tracer);
     void growLight(int view, double mu, const Line& single, const Line& multiple, const std::vector<Texel>& columnShares);
     Texel luminance(const std::vector<double>& radiance) const;
-    Texel& at(int table, int distance, int view, int azimuth);
+    Texel& at(int table, int distance, int view, int column);
 
     const Atmosphere& atmosphere_;
     const Phases& phases_;

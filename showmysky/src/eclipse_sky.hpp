@@ -44,6 +44,8 @@ public:
     /// \param eclipsed  light of higher orders that is dimmed already, in place of `sky`'s; null: that is dimmed by the local field
     SkyView dimmed(const OrdinarySky& sky, const ViewTable* eclipsed, int halfViews, int azimuths) const;
 
+    /// Share of the Sun's luminance left at a point in the camera's frame, m. All work must be done.
+    float lightAt(const std::array<float, 3>& point) const { return light_->luminance(point); }
     /// Share of the Sun's light left at a distance in a direction (unit vector), [wavelength].
     void visibleAt(const std::array<double, 3>& direction, double distance, double* result) const;
     /// Share left of the light of higher orders in a direction, and of the diffuse light of the ground there,

@@ -44,17 +44,18 @@ std::string HostFunctions::source(int scatterers)
     return gl::expandShader(sky::shaders::source, "render/host_functions.glsl", {}, Painter::lightDefines(scatterers), {}).text;
 }
 
-void HostFunctions::set(const std::vector<Texel>& texels, const sky::physics::Planet& planet, double altitude,
-                        const Illuminance& light)
+void HostFunctions::set(const Aerial& aerial, const sky::physics::Planet& planet, double altitude, const Illuminance& light)
 {
     std::vector<float> values;
-    values.reserve(4 * texels.size());
-    for (const Texel& texel : texels)
+    values.reserve(4 * aerial.texels().size());
+    for (const Texel& texel : aerial.texels())
         values.insert(values.end(), texel.begin(), texel.end());
+    if (aerial_.size().width != aerial.columns())
+        aerial_ = gl::Texture3D(api_, "aerial perspective", aerial_.format(), aerial.columns(), aerial_.size().height, aerial_.size().depth);
     aerial_.upload(values);
     uniforms_["aerialPlanet"] = std::array<float, 2>{static_cast<float>(planet.radius), static_cast<float>(planet.topOfAtmosphere)};
     uniforms_["aerialAltitude"] = static_cast<float>(altitude);
-    uniforms_["aerialSize"] = std::array<float, 3>{Aerial::azimuths, Aerial::halfViews, Aerial::distances};
+    uniforms_["aerialSize"] = std::array<float, 3>{static_cast<float>(aerial.columns()), Aerial::halfViews, Aerial::distances};
     uniforms_["horizontalSunlight"] = light.sunHorizontal;
     uniforms_["facingSunlight"] = light.sunFacing;
     uniforms_["horizontalSkylight"] = light.skyHorizontal;

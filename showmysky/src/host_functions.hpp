@@ -16,8 +16,7 @@ public:
     static std::string source(int scatterers);
 
     /// What stays the same until the scene changes.
-    ///   texels  Aerial::texels()
-    void set(const std::vector<Texel>& texels, const sky::physics::Planet& planet, double altitude, const Illuminance& light);
+    void set(const Aerial& aerial, const sky::physics::Planet& planet, double altitude, const Illuminance& light);
     /// Binds three textures, five where there are cities, from unit `firstUnit` on, and sets uniforms of a host's program.
     ///   throws  Error: it isn't a linked program, or there are too few units
     void bind(unsigned program, unsigned firstUnit, const Painter& painter) const;

@@ -397,10 +397,16 @@ bool Scene::aerialStep()
 {
     if (!aerial_)
         aerial_ = std::make_unique<Aerial>(*atmosphere_, *phases_, moments_ ? &*moments_ : nullptr, *sun_);
-    if (!aerialSettings_ || !sameTables(settings_, *aerialSettings_)) {
-        aerial_->set({settings_.altitude, std::cos(settings_.sun.zenithAngle), layersUsed(),
-                      atmosphere_->luminanceWeights(settings_.solarSpectrumFactors), undimmedWhole(),
-                      settings_.layers.lightPollution});
+    if (!aerialSettings_ || !sameTables(settings_, *aerialSettings_) || !sameEclipse(settings_, *aerialSettings_)) {
+        AerialScene scene{settings_.altitude, std::cos(settings_.sun.zenithAngle), layersUsed(),
+                          atmosphere_->luminanceWeights(settings_.solarSpectrumFactors), undimmedWhole(),
+                          settings_.layers.lightPollution};
+        if (settings_.eclipse == EclipseMode::on) {
+            const auto sun = directionOf(settings_.sun.azimuth, settings_.sun.zenithAngle);
+            scene.sunlight = [this](const std::array<float, 3>& point) { return eclipse_->lightAt(point); };
+            scene.sunAzimuth = std::atan2(sun[1], sun[0]);
+        }
+        aerial_->set(std::move(scene));
         aerialSettings_ = settings_;
     }
     return aerial_->step(linesPerStep);

@@ -76,7 +76,7 @@ struct Sky::Inside {
             return true;
         if (!scene.aerialStep())
             return false;
-        hostFunctions->set(scene.aerial().texels(), scene.atmosphere().planet(), scene.settings().altitude, scene.illuminance());
+        hostFunctions->set(scene.aerial(), scene.atmosphere().planet(), scene.settings().altitude, scene.illuminance());
         hostVersion = scene.version();
         return true;
     }

@@ -3,6 +3,7 @@
 #include "sky_for_tests.hpp"
 
 #include "atmosphere.hpp"
+#include "bodies.hpp"
 #include "gl/framebuffer.hpp"
 #include "gl/program.hpp"
 #include "model/moment_tables.hpp"
@@ -272,6 +273,61 @@ TEST_CASE("shader functions: light of the air up to a point, and what it lets th
     CHECK(quantile(errors, 0.5) < 0.006);
     CHECK(quantile(errors, 1) < 0.03);
     CHECK(quantile(depthErrors, 0.5) < 0.01);
+}
+
+TEST_CASE("shader functions: in an eclipse light scattered once begins where the shadow ends", "[gl]")
+{
+    const auto context = gl::testing::context(desktop());
+    if (!context)
+        return;
+    Sky sky = loadedSky(*context);
+    Host radiance(context->api(), sky, "showmyskyRadianceTo(d, metres)", 1, 1);
+    const Atmosphere atmosphere(SHOWMYSKY_TEST_MODEL);
+    const physics::SunTable sun(atmosphere.profile, atmosphere.optics, atmosphere.medium.sunAngularRadius);
+    const physics::SkyEvaluator evaluator(atmosphere.medium, atmosphere.profile, atmosphere.optics, sun);
+    physics::RayTracer tracer(atmosphere.profile, atmosphere.optics);
+    const auto weights = atmosphere.luminanceWeights({});
+    const auto wavelengths = weights.size(), row = wavelengths * atmosphere.optics.scatterers.size();
+    struct Case {
+        double apartDeg, asideDeg, viewZenithDeg, azimuthDeg, distance;
+    };
+    int inTheDark = 0;
+    for (const auto& [apartDeg, asideDeg, viewZenithDeg, azimuthDeg, distance] :
+         {Case{0, 0, 80, 90, 20e3}, Case{0, 0, 80, 90, 150e3}, Case{0, 0, 70, 250, 60e3}, Case{0.2, 0, 75, 30, 20e3},
+          Case{0.05, 0.1, 85, 60, 60e3}, Case{0.05, 0.1, 85, -60, 60e3}, Case{0.05, -0.1, 88, 120, 100e3}}) {
+        CAPTURE(apartDeg, asideDeg, viewZenithDeg, azimuthDeg, distance);
+        auto settings = scene(2, 50);
+        settings.layers.multipleScattering = settings.layers.zeroOrder = false;
+        settings.eclipse = EclipseMode::on;
+        settings.moon = {settings.sun.azimuth + asideDeg * degree, settings.sun.zenithAngle - apartDeg * degree, 371925e3};
+        sky.setSettings(settings);
+        const auto direction = directionOf(settings.sun.azimuth + azimuthDeg * degree, viewZenithDeg * degree);
+        const auto shadow = physics::makeShadow(
+            bodiesOf(atmosphere.model.manifest(), settings.altitude, settings.sun, settings.moon, sky.sunAngularRadius()));
+        const auto towardsSun = directionOf(settings.sun.azimuth, settings.sun.zenithAngle);
+        const double nu = physics::Shadow::dot(direction, towardsSun);
+        const auto upTo = [&](double end) {
+            auto ray = tracer.trace(settings.altitude, direction[2], 2000, false);
+            for (std::size_t k = 0; k < ray.nodes.size(); ++k) {
+                const double s = (atmosphere.planet().radius + settings.altitude) * ray.nodes[k].nuScale / ray.nodes[k].sunScale;
+                const double left = s > end ? 0 : shadow.visible({s * direction[0], s * direction[1], s * direction[2]});
+                for (std::size_t i = 0; i < row; ++i)
+                    ray.weights[k * row + i] *= left;
+            }
+            std::vector<double> light(wavelengths, 0.);
+            evaluator.singleAlong(ray, towardsSun[2], nu, true, light.data());
+            double sum = 0;
+            for (std::size_t w = 0; w < wavelengths; ++w)
+                sum += static_cast<double>(weights[w][1]) * light[w];
+            return sum;
+        };
+        const double expected = upTo(distance), all = upTo(1e9), drawn = static_cast<double>(radiance.ask(sky, direction, distance).y);
+        CAPTURE(expected, all, drawn);
+        CHECK(std::abs(drawn - expected) < 0.03 * all);
+        inTheDark += expected < 1e-3 * all;
+    }
+    CHECK(inTheDark > 0);
+    CHECK(inTheDark < 4);
 }
 
 TEST_CASE("shader functions: Sun and sky light a surface as photometry says", "[gl]")
