@@ -67,16 +67,22 @@ void RayTracer::walk(const double h, const double mu, const bool hitsGround)
         if (s1 > s0) {
             const double h0 = altitudeAlong(p, h, mu, s0), h1 = altitudeAlong(p, h, mu, s1);
             profile_.densities(k, 0.5 * (h0 + h1), n.data());
-            double depth = 0;
-            for (int s = 0; s < species; ++s)
-                depth += n[s] * maxExtinction_[s];
-            depth *= s1 - s0;
+            profile_.densities(k, h0, m.data());
+            double depth = 0, near = 0; // of the stretch; were it all as dense as where the ray enters it
+            for (int s = 0; s < species; ++s) {
+                depth += n[s] * maxExtinction_[s] * (s1 - s0);
+                near += m[s] * maxExtinction_[s] * (s1 - s0);
+            }
+            constexpr double mostByDepth = 64;
+            const double cellDepth = 0.5 * cellScale_;
+            if (near > mostByDepth * cellDepth)
+                depth = std::max(depth, near);
             // Fine enough for density, for the angle turned, and for the first optical depths inside a thick layer.
             const double bySteepness = profile_.steepness(k) * std::abs(h1 - h0) / (0.5 * cellScale_);
             const double byLength = (s1 - s0) / (length * 0.05 * cellScale_);
-            const double byDepth = std::min(depth / (0.5 * cellScale_), 64.);
+            const double byDepth = std::min(depth / cellDepth, mostByDepth);
             const int cells = std::clamp(static_cast<int>(std::ceil(std::max({bySteepness, byLength, byDepth}))), 1, 256);
-            const CellDivision division(s0, s1, cells, depth, 0.5 * cellScale_);
+            const CellDivision division(s0, s1, cells, depth, cellDepth);
             for (int c = 1; c <= cells; ++c) {
                 const double a = bounds_.back(), b = c == cells ? s1 : division.end(c);
                 const double offset = 0.5 * (b - a) / std::sqrt(3.), middle = 0.5 * (a + b);
