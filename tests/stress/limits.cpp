@@ -1,0 +1,160 @@
+// Sizes and depths at which other programs lose digits or energy. docs/stress.md
+
+#include "../physics/media.hpp"
+#include "physics/eclipse.hpp"
+#include "physics/harmonics.hpp"
+#include "physics/source_iteration.hpp"
+#include <catch2/catch.hpp>
+
+using namespace sky::physics;
+using sky::test::pi;
+
+namespace {
+
+MomentSettings coarse(int degree)
+{
+    MomentSettings s;
+    s.altitudes = 9;
+    s.suns = 8;
+    s.degree = degree;
+    s.azimuths = degree + 1;
+    s.groundDirections = 6;
+    s.limbDirections = 1;
+    s.skyDirections = 6;
+    s.directNodes = 24;
+    s.nodes = 12;
+    return s;
+}
+
+/// All lengths of a medium, in other units.
+Medium scaled(Medium medium, double factor)
+{
+    medium.planetRadius *= factor;
+    medium.topOfAtmosphere *= factor;
+    for (double& altitude : medium.altitudes)
+        altitude *= factor;
+    for (auto& species : medium.species)
+        for (double& sigma : species.extinctionCrossSection)
+            sigma /= factor;
+    return medium;
+}
+
+Moments solved(const Medium& medium, const MomentSettings& settings, int events)
+{
+    const Profile profile(medium);
+    const Optics optics = makeOptics(medium, settings.degree, true);
+    const SunTable sun(profile, optics, medium.sunAngularRadius, 20, 40);
+    const MomentGrid grid(profile, {optics.extinction[0]}, settings.altitudes, settings.suns);
+    return iterateSource(medium, profile, optics, sun, grid, settings, events);
+}
+
+} // namespace
+
+TEST_CASE("discs without size, and one as large as the sky: shares are 0 or 1, and whose disc is named first doesn't matter")
+{
+    for (const double moon : {0., 1e-9, 4.6e-3, 1., 1.5})
+        for (const double separation : {0., 1e-12, 4.6e-3, 1., 3.1}) {
+            const Discs<double> point{0, moon, separation};
+            INFO("moon " << moon << " separation " << separation);
+            CHECK(coveredFraction(point) == (separation < moon ? 1 : 0)); // a point-like Sun is behind the Moon or not
+            CHECK(visibleFraction(point) == (separation < moon ? 0 : 1));
+            CHECK(coveredFraction(Discs<double>{4.6e-3, 0, separation}) == 0);
+        }
+    // The area that two discs share, in whichever order: covered share times the square of the radius it is a share of.
+    for (const double ratio : {1., 1 + 1e-7, 1 + 1e-5, 1.001, 1.01, 1.5, 300.})
+        for (const double part : {0., 1e-9, 0.1, 0.5, 0.9, 1 - 1e-9, 1.}) {
+            const double a = 4.6e-3, b = a * ratio, separation = (b - a) + part * 2 * a;
+            INFO("ratio " << ratio << " part " << part);
+            CHECK(a * a * coveredFraction(Discs<double>{a, b, separation}) ==
+                  Approx(b * b * coveredFraction(Discs<double>{b, a, separation})).epsilon(1e-9).margin(1e-18 * b * b));
+        }
+}
+
+TEST_CASE("a planet of 400 metres has the sky of the Earth, and so has one of 70 000 kilometres")
+{
+    const auto settings = coarse(2);
+    auto air = sky::test::exponentialAir(0.3, 0.4, sky::test::rayleighPhase);
+    air.sunAngularRadius = 0.00465; // the shadow of a point would fall on either side of a node by rounding,
+    air.species[0].numberDensity.back() = std::exp(-14.7); // as would the number of cells that divide 15 scale heights
+    const Moments earth = solved(air, settings, 3);
+    for (const double factor : {400 / 6.371e6, 1e-3, 1e3 / 1024, 11.}) {
+        const Moments other = solved(scaled(air, factor), settings, 3);
+        REQUIRE(other.values.size() == earth.values.size());
+        double largest = 0;
+        for (std::size_t i = 0; i < earth.values.size(); ++i)
+            largest = std::max(largest, std::abs(other.values[i] - earth.values[i]));
+        INFO("factor " << factor);
+        CHECK(largest < 1e-5); // of ln I_00 and of ratios
+    }
+}
+
+TEST_CASE("haze from thin to thick that does not absorb, over white ground: all light comes back")
+{
+    auto settings = coarse(4);
+    settings.suns = 6;
+    settings.groundDirections = settings.skyDirections = 8;
+    settings.altitudes = 17;
+    settings.nodes = 16;
+    for (const double depth : {0.05, 0.3, 1.}) {
+        const auto haze = sky::test::layer(depth, 1, 1, [](double angle) { return sky::test::henyeyGreenstein(0.5, angle); });
+        const Moments moments = solved(haze, settings, depth > 0.5 ? 32 : 16);
+        std::vector<double> field(harmonicCount(settings.degree));
+        for (int j = 3; j < settings.suns; ++j) {
+            const double muSun = std::sin(moments.grid.sunElevation(j));
+            moments.interpolate(1000, muSun, field.data());
+            const double escape = -field[harmonicIndex(1, 0)] / std::sqrt(3 / (4 * pi)); // of an area, upwards; Y_10 = sqrt(3 / 4 pi) mu
+            INFO("depth " << depth << " muSun " << muSun);
+            CHECK(escape == Approx(muSun).epsilon(0.01)); // nodes, levels, and events that are still to come
+        }
+    }
+}
+
+TEST_CASE("after sunset, twice as many samples along a ray change little, and twice as many again less")
+{
+    const auto medium = sky::test::sampleEarth(sky::test::Aerosol::No);
+    const Profile profile(medium);
+    const Optics optics = makeOptics(medium, 2, false);
+    const SunTable sun(profile, optics, medium.sunAngularRadius);
+    const SkyEvaluator evaluator(medium, profile, optics, sun);
+    RayTracer tracer(profile, optics);
+    const auto light = [&](int nodes, double mu, double zenith) {
+        SkyEvaluator::Parts parts;
+        parts.multiple = false;
+        parts.singleNodes = nodes;
+        std::vector<double> result(optics.wavelengths);
+        const double muSun = std::cos(zenith);
+        evaluator.radiance(tracer, nullptr, 0, mu, muSun, mu * muSun + std::sqrt((1 - mu * mu) * (1 - muSun * muSun)), parts, result.data());
+        return result[1];
+    };
+    double coarse = 0, fine = 0;
+    for (int i = 0; i <= 20; ++i)
+        for (const double mu : {0.05, 0.3, 1.}) {
+            const double zenith = (90 + 0.4 * i) * pi / 180, truth = light(768, mu, zenith);
+            coarse = std::max(coarse, std::abs(light(48, mu, zenith) / truth - 1));
+            fine = std::max(fine, std::abs(light(96, mu, zenith) / truth - 1));
+        }
+    CHECK(coarse < 0.05);
+    CHECK(fine < 0.02);
+    CHECK(fine < 0.6 * coarse);
+}
+
+TEST_CASE("a cloud's surface is seen where it is, however slanted the ray that enters it")
+{
+    // Optical depth 1 a metre, and a field that falls by e a metre below the surface: from outside, flat, 1 / (1 + mu) is seen.
+    const auto medium = sky::test::withDensity(sky::test::layer(1000, 1, 0, sky::test::isotropicPhase, 6.4e6),
+                                               {0, 1000, 1000.001, 2000, 2000.001, 12e3}, {0, 0, 1, 1, 0, 0});
+    const Profile profile(medium);
+    const Optics optics = makeOptics(medium, 2, false);
+    const Planet& p = profile.planet();
+    RayTracer tracer(profile, optics);
+    for (const double slope : {1., 0.3, 0.05, 0.01, 0.003}) {
+        // The ray that meets the surface with this cosine, from 12 km: r sin is the same all along.
+        const double sine = (p.radius + 2000) / (p.radius + 12e3) * std::sqrt(1 - slope * slope), mu = -std::sqrt(1 - sine * sine);
+        const RayNodes ray = tracer.trace(12e3, mu, 24, hitsGround(p, 12e3, mu));
+        double seen = 0;
+        for (std::size_t k = 0; k < ray.nodes.size(); ++k)
+            seen += ray.weights[k] * std::exp(std::min(0., ray.nodes[k].altitude - 2000));
+        INFO("slope " << slope);
+        CHECK(seen == Approx(1 / (1 + slope)).epsilon(0.03)); // few nodes inside the first optical depth
+    }
+}
