@@ -56,8 +56,8 @@ public:
     {
         spectral_ = true;
         for (const auto& species : medium_.species)
-            if (species.scatters()) {
-                single_.push_back({&species, sky::model::ScatteringTable(model_, "single-scattering/" + species.name), {}});
+            if (const std::string table = "single-scattering/" + species.name; species.scatters() && model_.hasTable(table)) { // one that scatters no light has none
+                single_.push_back({&species, sky::model::ScatteringTable(model_, table), {}});
                 spectral_ = spectral_ && single_.back().table.table().channels == sky::model::Channels::SpectralRadiance;
             }
         if (!sky::model::scattersOnceAtMost(model_.manifest())) {
