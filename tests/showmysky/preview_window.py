@@ -223,21 +223,18 @@ def test_scene(screen):
         move = np.array([120, -60])
 
         hands.drag(sun(start), sun(start) + move, key="ctrl")
-        dragged = window.wait(lambda image: difference(sky(image), sky(start)) > 20, "the Sun moved")
-        expect(np.abs(sun(dragged) - sun(start) - move).max() < 4, f"the Sun went by {sun(dragged) - sun(start)}, not {move}")
+        dragged = window.wait(lambda image: np.abs(sun(image) - sun(start) - move).max() < 4, "the Sun moved")
 
         hands.drag((500, 300), (440, 340), key="shift")
-        turned = window.wait(lambda image: difference(sky(image), sky(dragged)) > 20, "the camera turned")
-        expect(np.abs(sun(turned) - sun(dragged) - (-60, 40)).max() < 30, f"the sky went by {sun(turned) - sun(dragged)}")
+        window.wait(lambda image: np.abs(sun(image) - sun(dragged) - (-60, 40)).max() < 30, "the camera turned")
 
         hands.drag((500, 300), (560, 260), button=3)
         back = window.wait(lambda image: np.abs(sun(image) - sun(dragged)).max() < 12, "the camera turned back")
 
         middle = np.array([WIDTH / 2, HEIGHT / 2])
         hands.click((600, 200), button=4, times=3)
-        zoomed = window.wait(lambda image: difference(sky(image), sky(back)) > 20, "the wheel zoomed")
-        expect(np.linalg.norm(sun(zoomed) - middle) > 1.15 * np.linalg.norm(sun(back) - middle),
-               "zooming in did not move the Sun away from the middle")
+        away = np.linalg.norm(sun(back) - middle)
+        zoomed = window.wait(lambda image: np.linalg.norm(sun(image) - middle) > 1.5 * away, "the wheel zoomed")
 
         hands.click((500, 450))
         picked = window.wait(lambda image: difference(sky(image), sky(zoomed)) > 60, "a click showed the light of a pixel")
