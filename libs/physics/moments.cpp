@@ -74,8 +74,9 @@ MomentGrid::MomentGrid(const Profile& profile, const std::vector<double>& larges
         const double last = altitudes_.back();
         if (level - last < 1e-6 * top)
             continue;
-        // The field bends within a small optical depth of an edge, so levels crowd there, as the cosines of even angles do.
-        const bool edgeBelow = isJump(last), edgeAbove = isJump(level);
+        // The field bends within a small optical depth of an edge, the ground among them, so levels crowd there, as the cosines of even
+        // angles do.
+        const bool edgeBelow = last == 0 || isJump(last), edgeAbove = isJump(level);
         const double density = edgeBelow || edgeAbove ? edgeCrowding / levelOpticalDepth : 1 / levelOpticalDepth;
         const int extra = std::min(63, static_cast<int>((depthAt(level) - depthAt(last)) * density));
         for (int i = 1; i <= extra; ++i) {

@@ -2,6 +2,7 @@
 #include "physics/cells.hpp"
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace sky::physics {
 
@@ -163,7 +164,8 @@ RayNodes RayTracer::trace(const double altitude, const double mu, const int coun
     // A cell's light comes from its centre of density, shifted towards the viewer by attenuation (in lengths of the cell).
     std::vector<double> shift(cells * wavelengths);
     double total = 0, turned = 0;
-    std::vector<double> transmittance(wavelengths, 1.);
+    std::vector<double> transmittance(wavelengths, 1.), dimming(cells, 0.); // vertical optical depth, mean of the wavelengths
+    double dimmed = 0;
     for (int c = 0; c < cells; ++c) {
         const double* column = &columns_[c * species];
         double* mean = &seen[c * wavelengths];
@@ -183,16 +185,20 @@ RayNodes RayTracer::trace(const double altitude, const double mu, const int coun
             for (int w = 0; w < wavelengths; ++w)
                 scattered += column[s] * optics_.scattering[s * wavelengths + w] * mean[w];
         share[c] = scattered;
+        dimming[c] = std::accumulate(tau.begin(), tau.end(), 0.) / wavelengths * std::abs(altitudes_[c + 1] - altitudes_[c]) / (bounds_[c + 1] - bounds_[c]);
+        dimmed += dimming[c];
         total += scattered;
         turned += std::abs(spread(p, altitudes_[c + 1]) - spread(p, altitudes_[c]));
     }
 
-    // Nodes at equal steps of a mixed measure: where the light comes from, altitude, and length.
+    // Nodes at equal steps of a mixed measure: where the light comes from, altitude, length, and in thick air the vertical optical depth,
+    // with which sunlight changes: it is taken as linear between nodes.
+    const double byDimming = 0.3 * dimmed / (1 + dimmed);
     for (int c = 0; c < cells; ++c) {
         const double light = total > 0 ? share[c] / total : 0;
         const double climb = turned > 0 ? std::abs(spread(p, altitudes_[c + 1]) - spread(p, altitudes_[c])) / turned : 0;
         const double way = (bounds_[c + 1] - bounds_[c]) / length;
-        measure[c + 1] = measure[c] + 0.3 * light + 0.2 * climb + 0.5 * way;
+        measure[c + 1] = measure[c] + (1 - byDimming) * (0.3 * light + 0.2 * climb + 0.5 * way) + (dimmed > 0 ? byDimming * dimming[c] / dimmed : 0);
     }
     std::vector<double> position(count, 0.);
     for (int k = 1, c = 0; k < count && cells > 0; ++k) {
