@@ -1,5 +1,6 @@
 #pragma once
 #include "physics/geometry.hpp"
+#include <algorithm>
 #include <vector>
 
 namespace sky::physics {
@@ -16,6 +17,9 @@ struct MomentSettings {
     int directNodes = 48;   ///< along a ray, for the first event: sunlight varies fast near the shadow's edge
     int nodes = 12;         ///< along a ray, for later events: the scattered field is smoother
     bool truncatePeaks = true; ///< delta-M scaling
+
+    /// Azimuths for light of azimuthal orders 0..m.
+    int azimuthsFor(int m) const { return std::min(azimuths, std::max(6, m + 2)); }
 };
 
 /// Zenith angles at which the field of one level is gathered, with the weights of their quadrature over mu.

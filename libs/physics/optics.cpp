@@ -1,6 +1,7 @@
 #include "physics/optics.hpp"
 #include "physics/harmonics.hpp"
 #include <algorithm>
+#include <cmath>
 
 namespace sky::physics {
 
@@ -61,6 +62,19 @@ Optics makeOptics(const Medium& medium, const int degree, const bool truncate)
             optics.scatterers.push_back(s);
     }
     return optics;
+}
+
+int azimuthalDegree(const Optics& optics, const int event)
+{
+    double largest = 0;
+    for (int m = optics.degree; m > 5; --m) {
+        for (const int s : optics.scatterers)
+            for (int w = 0; w < optics.wavelengths; ++w)
+                largest = std::max(largest, std::abs(optics.moment(s, m, w)));
+        if ((2 * m + 1) * std::pow(largest, event + 1) > 0.01)
+            return m;
+    }
+    return std::min(optics.degree, 5);
 }
 
 } // namespace sky::physics

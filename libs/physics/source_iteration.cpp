@@ -1,5 +1,6 @@
 #include "physics/source_iteration.hpp"
 #include "physics/harmonics.hpp"
+#include <algorithm>
 #include <cmath>
 #include <thread>
 
@@ -55,6 +56,12 @@ Moments iterateSource(const Medium& medium, const Profile& profile, const Optics
 
     for (int order = 1; order <= orders; ++order) {
         Moments current = empty;
+        const int azimuthal = order == 1 ? settings.degree : azimuthalDegree(optics, order);
+        const int azimuths = order == 1 ? settings.azimuths : settings.azimuthsFor(azimuthal);
+        for (int l = azimuthal + 1; l <= settings.degree; ++l)
+            for (int m = azimuthal + 1; m <= l; ++m)
+                for (size_t i = size_t(harmonicIndex(l, m)) * wavelengths; i < previous.values.size(); i += size_t(count) * wavelengths)
+                    std::fill_n(previous.values.begin() + std::ptrdiff_t(i), wavelengths, 0.);
         const auto gather = [&](int altitude, int j) {
             const double muSun = std::sin(grid.sunElevation(j)), sineSun = std::cos(grid.sunElevation(j));
             double* moments = current.at(altitude, j);
@@ -63,8 +70,8 @@ Moments iterateSource(const Medium& medium, const Profile& profile, const Optics
             for (size_t d = 0; d < set.mu.size(); ++d) {
                 const auto& ray = (order == 1 ? directRays : rays)[altitude][d];
                 harmonicFactors(settings.degree, set.mu[d], factors.data());
-                for (int k = 0; k < settings.azimuths; ++k) {
-                    const double phi = pi * (k + 0.5) / settings.azimuths;
+                for (int k = 0; k < azimuths; ++k) {
+                    const double phi = pi * (k + 0.5) / azimuths;
                     const double nu = set.mu[d] * muSun + std::sqrt(1 - set.mu[d] * set.mu[d]) * sineSun * std::cos(phi);
                     std::fill(radiance.begin(), radiance.end(), 0.);
                     if (order == 1)
@@ -82,9 +89,9 @@ Moments iterateSource(const Medium& medium, const Profile& profile, const Optics
                     }
                     for (double& value : radiance)
                         value = std::max(value, 0.); // a cut series may undershoot
-                    const double solidAngle = set.weight[d] * 2 * pi / settings.azimuths;
+                    const double solidAngle = set.weight[d] * 2 * pi / azimuths;
                     for (int l = 0; l <= settings.degree; ++l)
-                        for (int m = 0; m <= l; ++m) {
+                        for (int m = 0; m <= std::min(l, azimuthal); ++m) {
                             const double y = solidAngle * factors[harmonicIndex(l, m)] * std::cos(m * phi);
                             for (int w = 0; w < wavelengths; ++w)
                                 moments[harmonicIndex(l, m) * wavelengths + w] += y * radiance[w];

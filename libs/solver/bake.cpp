@@ -247,7 +247,7 @@ void gatherMultipleScattering(const gl::Api& api, const BakeJob& job, const phys
         for (int first = 0; first < shape.views; first += shape.viewsAtOnce) {
             const int count = std::min(shape.viewsAtOnce, shape.views - first);
             const ScatteredRays rays(api, job.scene, field.grid, viewsFrom(job, altitudes[layer], first, count), job.settings.nodes);
-            gather.gather(rays, fine, samples, shape.strides(count), results,
+            gather.gather(rays, fine, rays.degree, samples, shape.strides(count), results,
                           [&] { breath(double(layer) / double(altitudes.size())); });
             shape.place(results.download().data(), first, count, floats, values);
         }

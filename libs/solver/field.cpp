@@ -16,9 +16,9 @@ constexpr double toLog2 = 1.44269504088896340736;
 /// One node: `levels` are the field at the four altitudes of its stencil, [sun][lm][stride] each.
 SKY_WIDEST_VECTORS
 void foldNode(const float* const levels[4], const float weights[4], const float* __restrict coefficients, int suns, int degree,
-              int stride, float* __restrict target)
+              int azimuthal, int stride, float* __restrict target)
 {
-    const int harmonics = (degree + 1) * (degree + 2) / 2, rows = degree + 2;
+    const int harmonics = (degree + 1) * (degree + 2) / 2, rows = azimuthal + 2;
     for (int sun = 0; sun < suns; ++sun) {
         const float* __restrict a = levels[0] + sun * harmonics * stride;
         const float* __restrict b = levels[1] + sun * harmonics * stride;
@@ -31,9 +31,9 @@ void foldNode(const float* const levels[4], const float weights[4], const float*
         }
         for (int i = 2 * stride; i < rows * stride; ++i)
             out[i] = 0;
-        for (int l = 1, lm = 1; l <= degree; ++l)
-            for (int m = 0; m <= l; ++m, ++lm) {
-                const int at = lm * stride;
+        for (int l = 1; l <= degree; ++l)
+            for (int m = 0; m <= std::min(l, azimuthal); ++m) {
+                const int at = (l * (l + 1) / 2 + m) * stride;
                 float* __restrict term = out + (m + 1) * stride;
                 for (int w = 0; w < stride; ++w)
                     term[w] += coefficients[at + w] *
@@ -94,7 +94,7 @@ void refine(const float* __restrict source, const std::vector<physics::Stencil>&
     }
 }
 
-void foldAir(const FoldField& field, const ScatteredRays& rays, std::size_t at, std::vector<float>& coefficients, float* to)
+void foldAir(const FoldField& field, const ScatteredRays& rays, std::size_t at, int azimuthal, std::vector<float>& coefficients, float* to)
 {
     const int degree = rays.degree, stride = field.stride;
     const auto& node = rays.folds[at];
@@ -107,7 +107,7 @@ void foldAir(const FoldField& field, const ScatteredRays& rays, std::size_t at, 
     const float* levels[4];
     for (int i = 0; i < 4; ++i)
         levels[i] = &field.moments[std::size_t(node.level[i]) * field.suns * field.harmonics * stride];
-    foldNode(levels, node.weight, coefficients.data(), field.suns, degree, stride, to);
+    foldNode(levels, node.weight, coefficients.data(), field.suns, degree, azimuthal, stride, to);
 }
 
 /// What the ground throws into a ray: the same in all azimuths.
@@ -147,10 +147,10 @@ FoldField::FoldField(const physics::Moments& m, const int refinement)
         fineSuns.push_back(grid.sunStencil(double(f) / refinement));
 }
 
-void fold(const FoldField& field, const ScatteredRays& rays, const int first, const int count, const std::vector<std::array<float, 4>>& luminance,
-          float* const source)
+void fold(const FoldField& field, const ScatteredRays& rays, const int first, const int count, const int azimuthal,
+          const std::vector<std::array<float, 4>>& luminance, float* const source)
 {
-    const int rows = rays.degree + 2, stride = field.stride, channels = luminance.empty() ? stride : 4;
+    const int rows = azimuthal + 2, stride = field.stride, channels = luminance.empty() ? stride : 4;
     base::parallel([&](int thread, int threads) {
         std::vector<float> coefficients(field.harmonics * stride), spectral(std::size_t(field.suns) * rows * stride),
             bright(luminance.empty() ? 0 : std::size_t(field.suns) * rows * 4);
@@ -158,7 +158,7 @@ void fold(const FoldField& field, const ScatteredRays& rays, const int first, co
         for (int r = thread; r < count; r += threads)
             for (int k = 0; k <= rays.nodes; ++k) {
                 if (k < rays.nodes)
-                    foldAir(field, rays, std::size_t(first + r) * rays.nodes + k, coefficients, spectral.data());
+                    foldAir(field, rays, std::size_t(first + r) * rays.nodes + k, azimuthal, coefficients, spectral.data());
                 else
                     foldGround(field, &rays.ground[std::size_t(first + r) * stride], rows, spectral.data());
                 if (!luminance.empty())

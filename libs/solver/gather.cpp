@@ -135,21 +135,21 @@ ScatteredGather::ScatteredGather(const gl::Api& api, const Scene& scene, bool fr
       program_(gl::ProgramBuilder(api, shaders::source)
                    .compute("scattered gather", "solve/scattered.comp",
                             {{"SETS", std::to_string(setsTogether_)},
-                             {"DEGREE", std::to_string(scene.optics.degree)},
                              {"FROM_GROUND", fromGround ? "1" : "0"}})),
       luminance_(luminanceTexels(scene, luminance))
 {
 }
 
-void ScatteredGather::gather(const ScatteredRays& rays, const FoldField& field, const SunSamples& samples, Strides strides,
-                             gl::Buffer& results, const Breath& breath)
+void ScatteredGather::gather(const ScatteredRays& rays, const FoldField& field, const int azimuthal, const SunSamples& samples,
+                             Strides strides, gl::Buffer& results, const Breath& breath)
 {
     bindSamples(program_, samples, strides, rays.nodes);
     bind(program_, "rayNodes", 2, rays.rayNodes);
     program_.set("fieldSuns", field.fineSunCount());
+    program_.set("terms", azimuthal + 1);
     program_.set("vLowest", static_cast<float>(field.vLowest));
 
-    const std::size_t perRay = std::size_t(rays.nodes + 1) * field.fineSunCount() * (scene_.optics.degree + 2) * sets_;
+    const std::size_t perRay = std::size_t(rays.nodes + 1) * field.fineSunCount() * (azimuthal + 2) * sets_;
     const int chunk = raysTogether(api_, samples, rays.count, rays.nodes, perRay);
     if (!source_ || sourceTexels_ < chunk * perRay) {
         source_.reset();
@@ -162,7 +162,7 @@ void ScatteredGather::gather(const ScatteredRays& rays, const FoldField& field, 
     for (int first = 0; first < rays.count; first += chunk) {
         breath();
         const int count = std::min(chunk, rays.count - first);
-        source_->buffer.rewrite(count * perRay * 16, [&](void* to) { fold(field, rays, first, count, luminance_, static_cast<float*>(to)); });
+        source_->buffer.rewrite(count * perRay * 16, [&](void* to) { fold(field, rays, first, count, azimuthal, luminance_, static_cast<float*>(to)); });
         program_.set("firstRay", first);
         program_.set("totalSets", sets_);
         for (int set = 0; set < sets_; set += setsTogether_) {

@@ -63,7 +63,8 @@ public:
     ScatteredGather(const gl::Api& api, const Scene& scene, bool fromGround, const std::vector<std::array<double, 4>>& luminance);
 
     /// Fills `results`: rays x suns x azimuths texels, see DirectGather.
-    void gather(const ScatteredRays& rays, const FoldField& field, const SunSamples& samples, Strides strides,
+    ///   azimuthal  highest azimuthal order of the field that counts
+    void gather(const ScatteredRays& rays, const FoldField& field, int azimuthal, const SunSamples& samples, Strides strides,
                 gl::Buffer& results, const Breath& breath);
 
 private:

@@ -29,7 +29,7 @@ class Sweeps
 public:
     Sweeps(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid, const physics::MomentSettings& settings)
         : api_(api), scene_(scene), grid_(grid), settings_(settings), starts_(makeStarts()),
-          samples_(api, sunCosines(), azimuthCosines()),
+          samples_(api, sunCosines(), azimuthCosines(settings.azimuths)),
           results_(api, "sweep radiance",
                    starts_.size() * samples_.suns * samples_.azimuths * scene.sets() * 4 * sizeof(float))
     {
@@ -40,18 +40,21 @@ public:
     {
         const DirectRays rays(api_, DirectRayData(scene_, starts_, settings_.directNodes, true));
         DirectGather gather(api_, scene_, which == First::all ? DirectGather::Purpose::field : DirectGather::Purpose::groundField, {});
-        gather.gather(rays, samples_, strides(), {}, results_, breath);
-        return project();
+        gather.gather(rays, samples_, stridesOf(samples_), {}, results_, breath);
+        return project(settings_.degree, samples_.azimuths);
     }
 
-    Sums scattered(const physics::Moments& field, const Breath& breath)
+    /// Light of event `event`, scattered or reflected once more than the field.
+    Sums scattered(const physics::Moments& field, int event, const Breath& breath)
     {
         if (!gather_) {
             rays_.emplace(api_, scene_, grid_, starts_, settings_.nodes);
             gather_.emplace(api_, scene_, true, std::vector<std::array<double, 4>>{});
         }
-        gather_->gather(*rays_, FoldField(field, sweepRefinement), samples_, strides(), results_, breath);
-        return project();
+        const int azimuthal = physics::azimuthalDegree(scene_.optics, event);
+        const SunSamples samples(api_, sunCosines(), azimuthCosines(settings_.azimuthsFor(azimuthal)));
+        gather_->gather(*rays_, FoldField(field, sweepRefinement), azimuthal, samples, stridesOf(samples), results_, breath);
+        return project(azimuthal, samples.azimuths);
     }
 
     physics::Moments toMoments(const Sums& sums) const
@@ -94,30 +97,31 @@ private:
         return values;
     }
 
-    std::vector<float> azimuthCosines() const
+    static std::vector<float> azimuthCosines(int count)
     {
         std::vector<float> values;
-        for (int k = 0; k < settings_.azimuths; ++k)
-            values.push_back(static_cast<float>(std::cos(pi * (k + 0.5) / settings_.azimuths)));
+        for (int k = 0; k < count; ++k)
+            values.push_back(static_cast<float>(std::cos(pi * (k + 0.5) / count)));
         return values;
     }
 
-    Strides strides() const { return {samples_.suns * samples_.azimuths, samples_.azimuths, 1}; }
+    static Strides stridesOf(const SunSamples& samples) { return {samples.suns * samples.azimuths, samples.azimuths, 1}; }
 
     /// Moments by quadrature: Gauss-Legendre in mu on each panel, midpoints in azimuth (exact for trigonometric polynomials).
-    Sums project() const
+    /// Azimuthal orders above `azimuthal` stay zero.
+    Sums project(const int azimuthal, const int azimuths) const
     {
         const auto radiance = results_.download();
         const int degree = settings_.degree, count = harmonicCount(degree), wavelengths = scene_.optics.wavelengths;
-        const int suns = samples_.suns, azimuths = samples_.azimuths, stride = scene_.sets() * 4;
+        const int suns = samples_.suns, stride = scene_.sets() * 4;
         Sums sums{std::vector<double>(std::size_t(grid_.altitudeCount()) * suns * count * wavelengths, 0.),
                   std::vector<double>(std::size_t(grid_.altitudeCount()) * suns * wavelengths, 0.)};
-        std::vector<double> waves(azimuths * (degree + 1));
+        std::vector<double> waves(azimuths * (azimuthal + 1));
         for (int k = 0; k < azimuths; ++k)
-            for (int m = 0; m <= degree; ++m)
-                waves[k * (degree + 1) + m] = std::cos(m * pi * (k + 0.5) / azimuths) * 2 * pi / azimuths;
+            for (int m = 0; m <= azimuthal; ++m)
+                waves[k * (azimuthal + 1) + m] = std::cos(m * pi * (k + 0.5) / azimuths) * 2 * pi / azimuths;
         base::parallel([&](int thread, int threads) {
-            std::vector<double> factors(count), byAzimuth((degree + 1) * wavelengths);
+            std::vector<double> factors(count), byAzimuth((azimuthal + 1) * wavelengths);
             for (int a = thread; a < grid_.altitudeCount(); a += threads) {
                 const auto& set = directions_[a];
                 for (std::size_t d = 0; d < set.mu.size(); ++d) {
@@ -126,12 +130,12 @@ private:
                         const float* values = &radiance[(std::size_t(firstRay_[a] + d) * suns + j) * azimuths * stride];
                         std::fill(byAzimuth.begin(), byAzimuth.end(), 0.);
                         for (int k = 0; k < azimuths; ++k)
-                            for (int m = 0; m <= degree; ++m)
+                            for (int m = 0; m <= azimuthal; ++m)
                                 for (int w = 0; w < wavelengths; ++w)
-                                    byAzimuth[m * wavelengths + w] += waves[k * (degree + 1) + m] * double(values[k * stride + w]);
+                                    byAzimuth[m * wavelengths + w] += waves[k * (azimuthal + 1) + m] * double(values[k * stride + w]);
                         double* moments = &sums.moments[(std::size_t(a) * suns + j) * count * wavelengths];
                         for (int l = 0; l <= degree; ++l)
-                            for (int m = 0; m <= l; ++m) {
+                            for (int m = 0; m <= std::min(l, azimuthal); ++m) {
                                 const double y = set.weight[d] * factors[harmonicIndex(l, m)];
                                 for (int w = 0; w < wavelengths; ++w)
                                     moments[harmonicIndex(l, m) * wavelengths + w] += y * byAzimuth[m * wavelengths + w];
@@ -220,7 +224,7 @@ RadiationField iterate(const gl::Api& api, const Scene& scene, const physics::Mo
     for (int event = 2; event <= wanted; ++event) {
         earlier = std::move(before);
         before = std::move(last);
-        last = sweeps.scattered(sweeps.toMoments(before), [&] { breath(fractionOf(event - 1)); });
+        last = sweeps.scattered(sweeps.toMoments(before), event, [&] { breath(fractionOf(event - 1)); });
         add(total.moments, last.moments);
         add(total.irradiance, last.irradiance);
         field.eventCount = event;

@@ -4,10 +4,8 @@
 #include "lib/sun.glsl"
 #include "lib/scattered.glsl"
 
-const int terms = DEGREE + 1;
-
 uniform samplerBuffer source; // [ray of this dispatch][node][sun][1 + term][set], from fold()
-uniform int fieldSuns;
+uniform int fieldSuns, terms; // terms: azimuthal orders
 uniform float vLowest;
 
 void main()

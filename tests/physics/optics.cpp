@@ -76,3 +76,22 @@ TEST_CASE("optics: absorbers extinguish and do not scatter")
     dark.species[1].singleScatteringAlbedo = {0, 0, 0, 0};
     CHECK(makeOptics(dark, 4, true).scatterers == std::vector<int>{0});
 }
+
+TEST_CASE("optics: later events keep fewer azimuthal orders, never fewer than five nor more than the degree")
+{
+    const auto haze = makeOptics(layer(100, 0.8, 0, [](double t) { return henyeyGreenstein(0.85, t); }), 12, false);
+    int before = 12;
+    for (int event = 2; event <= 30; ++event) {
+        const int m = azimuthalDegree(haze, event);
+        CHECK(m <= before);
+        CHECK(m >= 5);
+        if (m < 12)
+            CHECK((2 * m + 3) * std::pow(0.85, (m + 1) * (event + 1)) < 0.0102);
+        if (m > 5)
+            CHECK((2 * m + 1) * std::pow(0.85, m * (event + 1)) > 0.0098);
+        before = m;
+    }
+    CHECK(before == 5);
+    const auto gentle = makeOptics(layer(1, 1, 0, [](double t) { return henyeyGreenstein(0.1, t); }), 3, false);
+    CHECK(azimuthalDegree(gentle, 2) == 3);
+}

@@ -222,7 +222,7 @@ TEST_CASE("baked tables: luminance is the spectrum weighed by the eye, of 20 wav
                 for (int w = 0; w < 20; ++w)
                     sum += double(spectra[texel * 20 + w]) * weights[w][c];
                 CHECK(double(xyzw[texel * 4 + c]) ==
-                      Approx(sum).epsilon(3e-3).margin(1e-11 * brightest)); // sums are interpolated, not what is summed
+                      Approx(sum).epsilon(5e-3).margin(1e-11 * brightest)); // log Y and ratios to Y are interpolated, not what is summed
             }
     }
 }
