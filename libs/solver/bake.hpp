@@ -13,7 +13,7 @@ struct BakeSettings {
     int nodes = 14;
     int refinement = 4; ///< fine Suns per Sun of the moments
     /// Nodes for sunlight must resolve the edge of the shadow, but no finer than a table of so many Suns can show it: all for 128,
-    /// five eighths for 32.
+    /// half of them for 32.
     int directNodesFor(int suns) const;
 };
 

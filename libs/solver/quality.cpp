@@ -49,7 +49,7 @@ Quality qualityFor(const std::string& name, const physics::Medium& medium, const
         q.bake = {20, 8, 2};
     } else if (name == "normal") {
         m = {14, 28, 5, 7, 4, 8, 6, 64, 10, true};
-        q.bake = {64, 12, 3};
+        q.bake = {64, 10, 3};
     } else if (name == "fine") {
         m = {24, 48, 8, 8, 6, 12, 10, 160, 20, true};
         q.bake = {80, 24, 4};
