@@ -125,7 +125,7 @@ model::TableSpec BakeJob::spec(const std::string& name, const std::string& quant
 
 int BakeSettings::directNodesFor(const int suns) const
 {
-    return static_cast<int>(std::lround(directNodes * std::min(1., std::sqrt(suns / 128.))));
+    return static_cast<int>(std::lround(directNodes * std::clamp(std::sqrt(suns / 128.), 0.5, 1.)));
 }
 
 std::vector<double> BakeJob::altitudes() const

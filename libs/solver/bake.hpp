@@ -12,8 +12,8 @@ struct BakeSettings {
     int directNodes = 40;
     int nodes = 14;
     int refinement = 4; ///< fine Suns per Sun of the moments
-    /// Nodes for sunlight must resolve the edge of the shadow, but no finer than a table of so many Suns can show it: all for 128,
-    /// half of them for 32.
+    /// Nodes for sunlight must resolve the edge of the shadow, but no finer than a table of so many Suns can show it: all for 128 or more,
+    /// half of them for 32 or fewer.
     int directNodesFor(int suns) const;
 };
 
