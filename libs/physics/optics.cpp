@@ -11,15 +11,15 @@ namespace {
 /// the optical depths alone is the more accurate at a low degree.
 constexpr double truncationMatters = 0.005;
 
-double column(const Medium& medium, const Species& species)
+} // namespace
+
+double verticalColumn(const Medium& medium, const Species& species)
 {
     double sum = 0;
     for (std::size_t k = 0; k + 1 < medium.altitudes.size(); ++k)
         sum += 0.5 * (species.numberDensity[k] + species.numberDensity[k + 1]) * (medium.altitudes[k + 1] - medium.altitudes[k]);
     return sum;
 }
-
-} // namespace
 
 Optics makeOptics(const Medium& medium, const int degree, const bool truncate)
 {
@@ -36,7 +36,7 @@ Optics makeOptics(const Medium& medium, const int degree, const bool truncate)
         const auto& species = medium.species[s];
         bool scatters = false;
         std::vector<double> moments;
-        const double particles = column(medium, species);
+        const double particles = verticalColumn(medium, species);
         for (int w = 0; w < wavelengths; ++w) {
             const double sigma = species.extinctionCrossSection[w];
             const double sigmaScattering = species.scatters() ? sigma * species.singleScatteringAlbedo[w] : 0;

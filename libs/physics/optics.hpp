@@ -21,6 +21,9 @@ struct Optics {
     double moment(int s, int l, int w) const { return moments[(s * (degree + 1) + l) * wavelengths + w]; }
 };
 
+/// Particles of a species above a square metre of the ground, m^-2: trapezoids between the medium's altitudes.
+double verticalColumn(const Medium& medium, const Species& species);
+
 /// Optics of `medium` for harmonics up to `degree`.
 ///   truncate  scale with f = lambda_{degree+1} where that much light matters; false: the series is only cut
 Optics makeOptics(const Medium& medium, int degree, bool truncate);

@@ -1,6 +1,7 @@
 #include "solver/medium_tables.hpp"
 #include "gl/buffer.hpp"
 #include "gl/program.hpp"
+#include "physics/optics.hpp"
 #include "physics/harmonics.hpp"
 #include "sky_shaders.hpp"
 #include <algorithm>
@@ -272,11 +273,8 @@ void checkOpticalDepths(const atmo::Description& description, const physics::Med
 {
     for (std::size_t s = 0; s < medium.species.size(); ++s) {
         const auto& species = medium.species[s];
-        double column = 0;
-        for (std::size_t k = 0; k + 1 < medium.altitudes.size(); ++k)
-            column += 0.5 * (species.numberDensity[k] + species.numberDensity[k + 1]) * (medium.altitudes[k + 1] - medium.altitudes[k]);
         const auto& sigma = species.extinctionCrossSection;
-        const double depth = column * *std::max_element(sigma.begin(), sigma.end());
+        const double depth = physics::verticalColumn(medium, species) * *std::max_element(sigma.begin(), sigma.end());
         if (!(depth <= mostOpticalDepth)) {
             const auto& block = densityBlock(description, s);
             throw AtmoError({block.file, block.firstLine, 0}, "with this number density \"" + species.name +

@@ -19,9 +19,7 @@ int neededDegree(const physics::Medium& medium, int most, double tolerance)
     for (const auto& species : medium.species) {
         if (!species.scatters())
             continue;
-        double column = 0;
-        for (std::size_t k = 0; k + 1 < medium.altitudes.size(); ++k)
-            column += 0.5 * (species.numberDensity[k] + species.numberDensity[k + 1]) * (medium.altitudes[k + 1] - medium.altitudes[k]);
+        const double column = physics::verticalColumn(medium, species);
         for (int w = 0; w < medium.wavelengthCount(); ++w) {
             const double depth = column * species.extinctionCrossSection[w] * species.singleScatteringAlbedo[w];
             if (!(depth > 0) || (w > 0 && species.achromatic && tolerance == 0))
