@@ -3,7 +3,10 @@
 
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <new>
+#include <vector>
 
 // The widest vectors that the machine has; elsewhere the compiler's default.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
@@ -41,5 +44,22 @@ inline float log2Lane(float x)
     const float series = 1 + z * (1.f / 3 + z * (1.f / 5 + z * (1.f / 7 + z * (1.f / 9))));
     return static_cast<float>(exponent) + 2.88539008f * t * series;
 }
+
+/// std::allocator forgets that vectors (GCC's vector_size) want aligned memory.
+template<class Value>
+struct VectorAllocator {
+    using value_type = Value;
+    static constexpr std::align_val_t alignment{64}; // the widest there are
+    VectorAllocator() = default;
+    template<class Other>
+    VectorAllocator(const VectorAllocator<Other>&)
+    {
+    }
+    Value* allocate(std::size_t count) { return static_cast<Value*>(::operator new(count * sizeof(Value), alignment)); }
+    void deallocate(Value* memory, std::size_t) { ::operator delete(memory, alignment); }
+    bool operator==(const VectorAllocator&) const { return true; }
+};
+template<class Vector>
+using VectorsOf = std::vector<Vector, VectorAllocator<Vector>>;
 
 } // namespace sky::base

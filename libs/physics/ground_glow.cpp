@@ -1,6 +1,7 @@
 #include "physics/ground_glow.hpp"
 #include "base/parallel.hpp"
 #include "physics/directions.hpp"
+#include "physics/glow_light.hpp"
 #include "physics/harmonics.hpp"
 #include "physics/series.hpp"
 #include "physics/table_axes.hpp"
@@ -18,23 +19,6 @@ void zonalFactors(int degree, double mu, double* factors)
     legendre(degree, mu, factors);
     for (int l = 0; l <= degree; ++l)
         factors[l] *= std::sqrt((2 * l + 1) / (4 * pi));
-}
-
-/// The sum over scatterers of weight times lambda_l, times Y_l0: what the moments at node k of a ray are multiplied by.
-///   result  [l][wavelength]
-void nodeCoefficients(const Optics& optics, const RayNodes& ray, int k, double* result)
-{
-    const int wavelengths = optics.wavelengths, scatterers = static_cast<int>(optics.scatterers.size());
-    std::vector<double> factors(optics.degree + 1);
-    zonalFactors(optics.degree, ray.nodes[k].mu, factors.data());
-    std::fill(result, result + (optics.degree + 1) * wavelengths, 0.);
-    for (int i = 0; i < scatterers; ++i) {
-        const double* weight = &ray.weights[(k * scatterers + i) * wavelengths];
-        const double* lambda = &optics.moments[optics.scatterers[i] * (optics.degree + 1) * wavelengths];
-        for (int l = 0; l <= optics.degree; ++l)
-            for (int w = 0; w < wavelengths; ++w)
-                result[l * wavelengths + w] += factors[l] * weight[w] * lambda[l * wavelengths + w];
-    }
 }
 
 /// A field as sums, before logarithms.
@@ -58,76 +42,47 @@ GlowMoments asMoments(const MomentGrid& grid, int degree, int wavelengths, const
     return m;
 }
 
-/// The rays of every level, traced once for all events, and what each event does with them.
+/// The rays of every level, divided into cells once for all events, and what each event does with them.
 class Sweeps
 {
 public:
     Sweeps(const Medium& medium, const Profile& profile, const Optics& optics, const MomentGrid& grid, const GlowSettings& settings)
-        : medium_(medium), optics_(optics), grid_(grid), levels_(grid.altitudeCount())
+        : medium_(medium), optics_(optics), levels_(grid.altitudeCount())
     {
         MomentSettings directions;
         directions.groundDirections = settings.groundDirections;
         directions.limbDirections = settings.limbDirections;
         directions.skyDirections = settings.skyDirections;
         base::parallel([&](int thread, int threads) {
-            RayTracer tracer(profile, optics, 2);
-            for (int a = thread; a < grid.altitudeCount(); a += threads)
-                levels_[a] = traced(tracer, grid.altitudes()[a], directionsAt(profile.planet(), grid.altitudes()[a], directions),
-                                    settings.nodes);
+            RayTracer tracer(profile, optics, settings.cells);
+            for (int a = thread; a < grid.altitudeCount(); a += threads) {
+                const double altitude = grid.altitudes()[a];
+                const auto all = directionsAt(profile.planet(), altitude, directions);
+                for (size_t d = 0; d < all.mu.size(); ++d)
+                    levels_[a].push_back({all.weight[d] * 2 * pi, tracer.cells(altitude, all.mu[d], all.hitsGround[d], GlowLight::deepest)});
+            }
         });
     }
 
     /// Light straight from the ground: event 0.
-    Sums direct() const
+    Sums direct(const GlowMoments& darkness) const
     {
-        return swept([&](const Ray& ray, double* radiance) {
-            for (int w = 0; w < optics_.wavelengths; ++w)
-                radiance[w] = ray.groundTransmittance[w];
-        });
+        const GlowLight light(medium_, optics_, darkness);
+        return swept([&](const RayCells& ray, double* radiance) { light.direct(ray, radiance); });
     }
 
     /// The light of one event, scattered and reflected once more.
     Sums scattered(const GlowMoments& previous) const
     {
-        return swept([&](const Ray& ray, double* radiance) {
-            const int count = (optics_.degree + 1) * optics_.wavelengths;
-            std::vector<double> field(count);
-            for (int w = 0; w < optics_.wavelengths; ++w)
-                radiance[w] = ray.groundTransmittance[w] * medium_.groundAlbedo[w] / pi * previous.groundIrradiance[w];
-            for (size_t k = 0; k < ray.altitudes.size(); ++k) {
-                previous.interpolate(ray.altitudes[k], field.data());
-                const double* coefficients = &ray.coefficients[k * count];
-                for (int l = 0; l <= optics_.degree; ++l)
-                    for (int w = 0; w < optics_.wavelengths; ++w)
-                        radiance[w] += coefficients[l * optics_.wavelengths + w] * field[l * optics_.wavelengths + w];
-            }
-        });
+        const GlowLight light(medium_, optics_, previous);
+        return swept([&](const RayCells& ray, double* radiance) { light.scattered(ray, radiance); });
     }
 
 private:
     struct Ray {
-        double mu, weight;
-        std::vector<double> groundTransmittance; // [wavelength]; zeros where it misses the ground
-        std::vector<double> altitudes;           // of the nodes
-        std::vector<double> coefficients;        // [node][l][wavelength]
+        double weight;
+        RayCells cells;
     };
-
-    std::vector<Ray> traced(RayTracer& tracer, double altitude, const Directions& directions, int nodes) const
-    {
-        std::vector<Ray> rays;
-        for (size_t d = 0; d < directions.mu.size(); ++d) {
-            const RayNodes ray = tracer.trace(altitude, directions.mu[d], nodes, directions.hitsGround[d]);
-            Ray own{directions.mu[d], directions.weight[d] * 2 * pi, ray.groundTransmittance, {}, {}};
-            const int count = (optics_.degree + 1) * optics_.wavelengths;
-            own.coefficients.resize(ray.nodes.size() * count);
-            for (size_t k = 0; k < ray.nodes.size(); ++k) {
-                own.altitudes.push_back(ray.nodes[k].altitude);
-                nodeCoefficients(optics_, ray, static_cast<int>(k), &own.coefficients[k * count]);
-            }
-            rays.push_back(std::move(own));
-        }
-        return rays;
-    }
 
     template<class Radiance>
     Sums swept(Radiance&& radianceOf) const
@@ -138,14 +93,15 @@ private:
             std::vector<double> radiance(wavelengths), factors(optics_.degree + 1);
             for (size_t a = thread; a < levels_.size(); a += threads)
                 for (const Ray& ray : levels_[a]) {
-                    radianceOf(ray, radiance.data());
-                    zonalFactors(optics_.degree, ray.mu, factors.data());
+                    const double mu = ray.cells.mu;
+                    radianceOf(ray.cells, radiance.data());
+                    zonalFactors(optics_.degree, mu, factors.data());
                     for (int l = 0; l <= optics_.degree; ++l)
                         for (int w = 0; w < wavelengths; ++w)
                             sums.moments[a * count + l * wavelengths + w] += ray.weight * factors[l] * radiance[w];
-                    if (a == 0 && ray.mu > 0)
+                    if (a == 0 && mu > 0)
                         for (int w = 0; w < wavelengths; ++w)
-                            sums.irradiance[w] += ray.weight * ray.mu * radiance[w];
+                            sums.irradiance[w] += ray.weight * mu * radiance[w];
                 }
         });
         // A cut series of a phase function may be negative somewhere; no field is.
@@ -159,7 +115,6 @@ private:
 
     const Medium& medium_;
     const Optics& optics_;
-    const MomentGrid& grid_;
     std::vector<std::vector<Ray>> levels_;
 };
 
@@ -245,7 +200,8 @@ GlowField solveGroundGlow(const Medium& medium, const Profile& profile, const Op
     const Sweeps sweeps(medium, profile, optics, grid, settings);
     const auto moments = [&](const Sums& sums) { return asMoments(grid, degree, wavelengths, sums); };
     GlowField field;
-    Sums last = sweeps.direct(), total = last, before, earlier;
+    const Sums none{std::vector<double>(size_t(grid.altitudeCount()) * (degree + 1) * wavelengths, 0.), std::vector<double>(wavelengths, 0.)};
+    Sums last = sweeps.direct(moments(none)), total = last, before, earlier;
     if (keepEvents)
         field.perEvent.push_back(moments(last));
     const bool scatters = !optics.scatterers.empty(); // else no light ever comes down to be reflected
@@ -270,30 +226,6 @@ GlowField solveGroundGlow(const Medium& medium, const Profile& profile, const Op
         close(total, last, before, degree, wavelengths);
     field.total = moments(total);
     return field;
-}
-
-void glowScattered(const Medium& medium, const Optics& optics, const GlowMoments& moments, const RayNodes& ray, double* const result)
-{
-    const int wavelengths = optics.wavelengths, count = (optics.degree + 1) * wavelengths;
-    for (int w = 0; w < wavelengths; ++w)
-        result[w] = ray.groundTransmittance[w] * medium.groundAlbedo[w] / pi * moments.groundIrradiance[w];
-    std::vector<double> coefficients(count), field(count);
-    for (size_t k = 0; k < ray.nodes.size(); ++k) {
-        nodeCoefficients(optics, ray, static_cast<int>(k), coefficients.data());
-        moments.interpolate(ray.nodes[k].altitude, field.data());
-        for (int l = 0; l <= optics.degree; ++l)
-            for (int w = 0; w < wavelengths; ++w)
-                result[w] += coefficients[l * wavelengths + w] * field[l * wavelengths + w];
-    }
-    for (int w = 0; w < wavelengths; ++w)
-        result[w] = std::max(0., result[w]);
-}
-
-void glowRadiance(const Medium& medium, const Optics& optics, const GlowMoments& moments, const RayNodes& ray, double* const result)
-{
-    glowScattered(medium, optics, moments, ray, result);
-    for (int w = 0; w < optics.wavelengths; ++w)
-        result[w] += ray.groundTransmittance[w];
 }
 
 } // namespace sky::physics

@@ -3,7 +3,7 @@
 // depend on the altitude alone.
 
 #include "physics/moments.hpp"
-#include "physics/ray.hpp"
+#include "physics/optics.hpp"
 #include <functional>
 #include <vector>
 
@@ -11,13 +11,12 @@ namespace sky::physics {
 
 /// How finely the glow is computed; see docs/light-pollution.md for what fewer or more cost.
 struct GlowSettings {
-    int altitudes = 20;        ///< levels before the medium asks for more
+    int altitudes = 40;        ///< levels before the medium asks for more
     int degree = 8;            ///< of the harmonics: the horizon is the edge of the source
     int groundDirections = 10; ///< zenith angles from nadir to the horizon
     int limbDirections = 5;    ///< from the horizon to the horizontal
     int skyDirections = 10;    ///< from the horizontal to the zenith
-    int nodes = 24;            ///< along a ray, of the field
-    int viewNodes = 20;        ///< along a ray, of a view
+    double cells = 2;          ///< relative size of the cells along a ray, see RayTracer
     int mostEvents = 100;      ///< of the field: beyond, the rest of the series is an estimate
     double tolerance = 3e-4;   ///< relative change of the closed series at which events end
 };
@@ -57,12 +56,5 @@ Profile glowProfile(const Medium& medium);
 
 /// Optics of the glow: peaks beyond the degree truncated, which a field as even as this one hardly feels.
 Optics glowOptics(const Medium& medium, int degree);
-
-/// Light of a field that is scattered into a ray, or reflected into it by the ground, per radiance of the ground.
-///   result  [wavelength], dimensionless, >= 0
-void glowScattered(const Medium& medium, const Optics& optics, const GlowMoments& moments, const RayNodes& ray, double* result);
-
-/// What is seen along a ray per radiance of the ground: the ground itself and glowScattered().
-void glowRadiance(const Medium& medium, const Optics& optics, const GlowMoments& moments, const RayNodes& ray, double* result);
 
 } // namespace sky::physics

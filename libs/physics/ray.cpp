@@ -19,10 +19,11 @@ RayTracer::RayTracer(const Profile& profile, const Optics& optics, const double 
     for (int s = 0; s < optics.species; ++s) {
         const auto begin = optics.extinction.begin() + s * optics.wavelengths;
         maxExtinction_.push_back(*std::max_element(begin, begin + optics.wavelengths));
+        minExtinction_.push_back(*std::min_element(begin, begin + optics.wavelengths));
     }
 }
 
-void RayTracer::walk(const double h, const double mu, const bool hitsGround)
+void RayTracer::walk(const double h, const double mu, const bool hitsGround, const double deepest)
 {
     const auto& p = profile_.planet();
     const auto& shells = profile_.shells();
@@ -41,7 +42,7 @@ void RayTracer::walk(const double h, const double mu, const bool hitsGround)
     bool down = mu < 0;
     if (down && h <= shells[k] && k > 0)
         --k;
-    double s0 = 0;
+    double s0 = 0, passed = 0;
     const double perigee = -r * mu;
     while (s0 < length) {
         double s1;
@@ -92,10 +93,13 @@ void RayTracer::walk(const double h, const double mu, const bool hitsGround)
                 for (int s = 0; s < species; ++s) {
                     const double both = n[s] + m[s];
                     columns_.push_back(0.5 * (b - a) * both);
+                    passed += columns_.back() * minExtinction_[s];
                     centres_.push_back(0.5 + (both > 0 ? 0.5 / std::sqrt(3.) * (m[s] - n[s]) / both : 0));
                 }
                 bounds_.push_back(b);
                 altitudes_.push_back(altitudeAlong(p, h, mu, b));
+                if (passed > deepest)
+                    return;
             }
         }
         s0 = s1;
@@ -106,6 +110,12 @@ void RayTracer::walk(const double h, const double mu, const bool hitsGround)
         if (k < 0 || k + 1 >= static_cast<int>(shells.size()))
             break;
     }
+}
+
+RayCells RayTracer::cells(const double altitude, const double mu, const bool hits, const double deepest)
+{
+    walk(altitude, mu, hits, deepest);
+    return {altitude, mu, hits, bounds_, altitudes_, columns_, centres_};
 }
 
 void RayTracer::columns(const double altitude, const double mu, double* const result)

@@ -1,6 +1,7 @@
 #pragma once
 #include "physics/optics.hpp"
 #include "physics/profile.hpp"
+#include <limits>
 #include <vector>
 
 namespace sky::physics {
@@ -35,6 +36,16 @@ struct SeenColumns {
     std::vector<double> groundTransmittance; ///< [wavelength], 0 if the ray misses the ground
 };
 
+/// A ray in the fine cells that its integrals run over, for fields that are known everywhere.
+struct RayCells {
+    double altitude = 0, mu = 1;    ///< m, where it starts, and the cosine of its zenith angle there
+    bool hitsGround = false;
+    std::vector<double> bounds;     ///< [cells + 1], m, from 0 to the ground or to space
+    std::vector<double> altitudes;  ///< [cells + 1], m, there
+    std::vector<double> columns;    ///< [cells][species], m^-2
+    std::vector<double> centres;    ///< [cells][species]: centre of mass along the cell, 0..1
+};
+
 /// Follows rays through a profile. Keeps scratch memory: one tracer a thread.
 class RayTracer
 {
@@ -50,11 +61,14 @@ public:
     /// The same integrals, cumulated along the ray.
     SeenColumns seen(double altitude, double mu, bool hitsGround);
 
+    /// The cells of the ray themselves, up to where all wavelengths have passed an optical depth of `deepest`.
+    RayCells cells(double altitude, double mu, bool hitsGround, double deepest);
+
     /// Column of each species from `altitude` to space, [species], m^-2; the ray must miss the ground.
     void columns(double altitude, double mu, double* result);
 
 private:
-    void walk(double altitude, double mu, bool hitsGround);
+    void walk(double altitude, double mu, bool hitsGround, double deepest = std::numeric_limits<double>::infinity());
 
     const Profile& profile_;
     const Optics& optics_;
@@ -63,7 +77,7 @@ private:
     std::vector<double> columns_;  // [cells][species]
     std::vector<double> centres_;  // [cells][species], centre of mass along the cell, 0..1
     std::vector<double> altitudes_; // [cells + 1]
-    std::vector<double> maxExtinction_; // [species]
+    std::vector<double> maxExtinction_, minExtinction_; // [species]
 };
 
 } // namespace sky::physics

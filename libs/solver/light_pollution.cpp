@@ -2,7 +2,7 @@
 #include "base/parallel.hpp"
 #include "model/glow_tables.hpp"
 #include "physics/colour.hpp"
-#include "physics/ground_glow.hpp"
+#include "physics/glow_light.hpp"
 #include "physics/table_axes.hpp"
 #include <algorithm>
 #include <cmath>
@@ -12,26 +12,24 @@ namespace sky::solver {
 
 namespace {
 
-constexpr double cellScale = 2; // of the tracer
-
 physics::GlowSettings settingsFor(const std::string& quality)
 {
     physics::GlowSettings s;
     if (quality == "fine" || quality == "reference") {
-        s.altitudes = 40;
+        s.altitudes = 64;
         s.degree = 16;
         s.groundDirections = s.skyDirections = 20;
         s.limbDirections = 10;
-        s.nodes = s.viewNodes = 60;
+        s.cells = 1;
     }
     return s;
 }
 
-using RadianceAlong = std::function<void(const physics::RayNodes&, double*)>;
+using RadianceAlong = std::function<void(const physics::RayCells&, double*)>;
 
 /// One table over altitude and view of what `radiance` says of the ray, times the spectrum.
 void writeTable(const atmo::Description& description, const Options& options, const physics::Medium& medium,
-                const physics::Profile& profile, const physics::Optics& optics, const std::vector<double>& spectrum, int nodes,
+                const physics::Profile& profile, const physics::Optics& optics, const std::vector<double>& spectrum, double cells,
                 const std::string& name, const std::string& quantity, const RadianceAlong& radiance, model::ModelWriter& writer)
 {
     const auto& planet = profile.planet();
@@ -54,12 +52,12 @@ void writeTable(const atmo::Description& description, const Options& options, co
     const int channels = spec.channelCount();
     std::vector<float> values(std::size_t(layers) * views * channels, 0.F);
     base::parallel([&](int thread, int threads) {
-        physics::RayTracer tracer(profile, optics, cellScale);
+        physics::RayTracer tracer(profile, optics, cells);
         std::vector<double> light(wavelengths);
         for (int a = thread; a < layers; a += threads) {
             const auto mu = physics::viewMuNodes(planet, altitudes[a], views);
             for (int k = 0; k < views; ++k) {
-                radiance(tracer.trace(altitudes[a], mu[k], nodes, k < views / 2), light.data());
+                radiance(tracer.cells(altitudes[a], mu[k], k < views / 2, physics::GlowLight::deepest), light.data());
                 float* texel = &values[(std::size_t(a) * views + k) * channels];
                 for (int w = 0; w < wavelengths; ++w)
                     if (options.radiance)
@@ -108,17 +106,18 @@ void bakeLightPollution(const atmo::Description& description, const Options& opt
     model::writeGlow(writer, field.total);
     const auto table = [&](const std::string& name, const std::string& quantity, const RadianceAlong& radiance) {
         breath(0.5);
-        writeTable(description, options, medium, profile, optics, spectrum, settings.viewNodes, name, quantity, radiance, writer);
+        writeTable(description, options, medium, profile, optics, spectrum, settings.cells, name, quantity, radiance, writer);
     };
+    const auto lightOf = [&](const physics::GlowMoments& moments) { return physics::GlowLight(medium, optics, moments); };
     table(model::lightPollutionTable, "light of a ground that glows evenly, and what is scattered of it",
-          [&](const physics::RayNodes& ray, double* light) { physics::glowRadiance(medium, optics, field.total, ray, light); });
+          [light = lightOf(field.total)](const physics::RayCells& ray, double* result) { light.seen(ray, result); });
     for (std::size_t order = 0; !field.perEvent.empty() && order <= field.perEvent.size(); ++order) // the field is scattered once more
         table(std::string(model::lightPollutionTable) + "/order-" + std::to_string(order), "light pollution of order " + std::to_string(order),
-              [&](const physics::RayNodes& ray, double* light) {
+              [order, light = lightOf(field.perEvent[order > 0 ? order - 1 : 0])](const physics::RayCells& ray, double* result) {
                   if (order == 0)
-                      std::copy(ray.groundTransmittance.begin(), ray.groundTransmittance.end(), light);
+                      light.direct(ray, result);
                   else
-                      physics::glowScattered(medium, optics, field.perEvent[order - 1], ray, light);
+                      light.scattered(ray, result);
               });
     breath(1);
 }

@@ -10,7 +10,7 @@ namespace physics = sky::physics;
 
 namespace {
 
-constexpr double cellScale = 2; // of the tracer
+constexpr double cellScale = physics::GlowSettings().cells;
 
 /// The same light in all azimuths.
 void setView(ViewTable& table, int view, const std::array<double, 4>& luminance)
@@ -24,7 +24,7 @@ void setView(ViewTable& table, int view, const std::array<double, 4>& luminance)
 
 Glow::Glow(const sky::model::Model& model, const physics::Medium& medium)
     : model_(model), medium_(medium), moments_(sky::model::readGlow(model)), profile_(physics::glowProfile(medium)),
-      optics_(physics::glowOptics(medium, moments_.degree)), weights_(physics::luminanceWeights(medium.wavelengthsNm))
+      optics_(physics::glowOptics(medium, moments_.degree)), light_(medium, optics_, moments_), weights_(physics::luminanceWeights(medium.wavelengthsNm))
 {
 }
 
@@ -49,8 +49,7 @@ std::array<double, 4> Glow::luminanceOf(const double* radiance) const
 
 void Glow::along(physics::RayTracer& tracer, const AirEntry& entry, bool ground, double* result) const
 {
-    const physics::GlowSettings settings;
-    physics::glowRadiance(medium_, optics_, moments_, tracer.trace(entry.altitude, entry.mu, settings.viewNodes, ground), result);
+    light_.seen(tracer.cells(entry.altitude, entry.mu, ground, physics::GlowLight::deepest), result);
     const auto& spectrum = model_.manifest().lightPollutionRadiance;
     for (std::size_t w = 0; w < spectrum.size(); ++w)
         result[w] *= spectrum[w];

@@ -3,7 +3,7 @@
 
 #include "air_entry.hpp"
 #include "model/glow_tables.hpp"
-#include "physics/ground_glow.hpp"
+#include "physics/glow_light.hpp"
 #include "sky_view.hpp"
 #include <optional>
 #include <string>
@@ -39,6 +39,7 @@ private:
     sky::physics::GlowMoments moments_;
     sky::physics::Profile profile_;
     sky::physics::Optics optics_;
+    sky::physics::GlowLight light_;
     std::vector<std::array<double, 4>> weights_; ///< [wavelength]: X, Y, Z, scotopic of unit radiance
     std::optional<sky::model::GlowTable> table_;
 };

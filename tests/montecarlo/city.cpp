@@ -2,7 +2,7 @@
 #include "montecarlo/ground_light.hpp"
 #include "montecarlo/reference.hpp"
 #include "physics/city.hpp"
-#include "physics/ground_glow.hpp"
+#include "physics/glow_light.hpp"
 #include "sample_air.hpp"
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -73,14 +73,15 @@ TEST_CASE("city: one as large as a country makes the sky of an evenly glowing gr
     const Profile profile = glowProfile(medium);
     const Optics optics = glowOptics(medium, settings.degree);
     const auto glow = solveGroundGlow(medium, profile, optics, settings);
-    RayTracer tracer(profile, optics, 2);
+    const GlowLight light(medium, optics, glow.total);
+    RayTracer tracer(profile, optics, settings.cells);
     std::vector<double> whole(medium.wavelengthsNm.size());
     for (const double altitude : {0., 5000.})
         for (const double angle : {0., 60., 80., 150.}) {
             const double mu = std::cos(angle * degree);
             if (altitude == 0 && mu < 0)
                 continue;
-            glowRadiance(medium, optics, glow.total, tracer.trace(altitude, mu, 24, mu < 0), whole.data());
+            light.seen(tracer.cells(altitude, mu, mu < 0, GlowLight::deepest), whole.data());
             const auto seen = town.seen(0, altitude, angle * degree, 0);
             INFO("altitude " << altitude << ", zenith angle " << angle);
             for (const std::size_t w : {0u, 2u})

@@ -1,7 +1,7 @@
 // Light from the ground by random paths: closed forms, and judging the moments of the glow.
 #include "montecarlo/ground_light.hpp"
 #include "montecarlo/reference.hpp"
-#include "physics/ground_glow.hpp"
+#include "physics/glow_light.hpp"
 #include "sample_air.hpp"
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -84,7 +84,8 @@ TEST_CASE("ground glow: moments agree with Monte Carlo, from the ground to space
     const physics::Profile profile = physics::glowProfile(medium);
     const auto optics = physics::glowOptics(medium, settings.degree);
     const auto field = physics::solveGroundGlow(medium, profile, optics, settings);
-    physics::RayTracer tracer(profile, optics, 2);
+    const physics::GlowLight light(medium, optics, field.total);
+    physics::RayTracer tracer(profile, optics, settings.cells);
     std::vector<double> value(medium.wavelengthsNm.size());
     double squares = 0, noise = 0;
     int count = 0;
@@ -96,7 +97,7 @@ TEST_CASE("ground glow: moments agree with Monte Carlo, from the ground to space
                 if ((altitude == 0 && angle > 90) || (altitude == medium.topOfAtmosphere && !ground))
                     continue;
                 const auto truth = judge.groundLight(looking(altitude, angle * degree, wavelength), std::nullopt, fixed(1 << 14));
-                physics::glowRadiance(medium, optics, field.total, tracer.trace(altitude, mu, settings.viewNodes, ground), value.data());
+                light.seen(tracer.cells(altitude, mu, ground, physics::GlowLight::deepest), value.data());
                 // Light reflected by the ground in direct view is in the table alone.
                 const double reflected = truth.direct * medium.groundAlbedo[wavelength] / pi * field.total.groundIrradiance[wavelength];
                 const double whole = truth.direct + truth.scattered + reflected, off = value[wavelength] / whole - 1;

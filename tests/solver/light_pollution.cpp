@@ -2,6 +2,7 @@
 #include "model/glow_tables.hpp"
 #include "model/medium_tables.hpp"
 #include "physics/colour.hpp"
+#include "physics/glow_light.hpp"
 #include "physics/table_axes.hpp"
 #include "support.hpp"
 
@@ -94,7 +95,8 @@ TEST_CASE("light pollution: spectral tables hold the scaled lamp, and agree with
     const auto moments = model::readGlow(run.model);
     const auto profile = physics::glowProfile(medium);
     const auto optics = physics::glowOptics(medium, moments.degree);
-    physics::RayTracer tracer(profile, optics, 2);
+    const physics::GlowLight light(medium, optics, moments);
+    physics::RayTracer tracer(profile, optics, physics::GlowSettings().cells);
     const model::GlowTable table(run.model);
     const auto altitudes = physics::altitudeNodes(profile.planet(), 6);
     for (const double altitude : {altitudes[0], altitudes[2], altitudes[5]}) {
@@ -102,7 +104,7 @@ TEST_CASE("light pollution: spectral tables hold the scaled lamp, and agree with
         const auto mu = physics::viewMuNodes(profile.planet(), altitude, table.views());
         for (const int k : {0, 5, 7, 8, 12, 15}) {
             double direct[2];
-            physics::glowRadiance(medium, optics, moments, tracer.trace(altitude, mu[k], 20, k < 8), direct);
+            light.seen(tracer.cells(altitude, mu[k], k < 8, physics::GlowLight::deepest), direct);
             for (int w = 0; w < 2; ++w)
                 CHECK(slice[k * 2 + w] == Approx(direct[w] * lamp[w]).epsilon(1e-3)); // moments are stored as floats
         }
