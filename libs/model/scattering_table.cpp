@@ -78,7 +78,7 @@ std::vector<float> ScatteringTable::slice(const double altitude, const double su
     for (const double h : table_.axes[0].nodes)
         measures.push_back(std::sqrt(physics::radiusExcessSquared(planet, h)));
     const auto a = stencilOn(positionAmong(measures, std::sqrt(physics::radiusExcessSquared(planet, std::max(0., altitude)))), layers_);
-    const auto b = stencilOn(sun, suns_);
+    const auto [b, beyondZenith] = suns_ < 2 ? physics::SunStencil{stencilOn(sun, suns_), false} : physics::sunStencil(sun, suns_);
 
     std::vector<float> result(columns);
     std::array<std::vector<float>, 4> rows; // each altitude interpolated over the Sun
@@ -87,10 +87,12 @@ std::vector<float> ScatteringTable::slice(const double altitude, const double su
             continue;
         const auto& values = layer(a.index[i]);
         rows[i].resize(columns);
-        for (std::size_t c = 0; c < columns; ++c)
+        for (std::size_t c = 0; c < columns; ++c) {
+            const std::size_t azimuth = c / channels_ % azimuths_, opposite = c + (azimuths_ - 1 - 2 * azimuth) * channels_;
             rows[i][c] = static_cast<float>(physics::interpolateLog(
                 b, {double(values[b.index[0] * columns + c]), double(values[b.index[1] * columns + c]),
-                    double(values[b.index[2] * columns + c]), double(values[b.index[3] * columns + c])}));
+                    double(values[b.index[2] * columns + c]), double(values[b.index[3] * columns + (beyondZenith ? opposite : c)])}));
+        }
     }
     for (std::size_t c = 0; c < columns; ++c) {
         std::array<double, 4> v{};

@@ -31,6 +31,25 @@ inline Stencil uniformStencil(double position, int n)
     return s;
 }
 
+/// Catmull-Rom on the uniform axis of the Sun's elevation, which ends at the zenith: what is beyond is the last node but one seen from
+/// the other side, its relative azimuths phi those of pi - phi.
+struct SunStencil {
+    Stencil stencil;
+    bool beyondZenith; ///< the last of the four is that node
+};
+inline SunStencil sunStencil(double position, int n)
+{
+    Stencil s = uniformStencil(position, n);
+    if (s.index[1] != n - 2)
+        return {s, false};
+    const double t = std::clamp(position - (n - 2), 0., 1.), outer = t * t * (-0.5 + 0.5 * t);
+    s.index[3] = n - 2;
+    s.weight[3] = outer;
+    s.weight[2] -= 2 * outer;
+    s.weight[1] += outer;
+    return {s, true};
+}
+
 /// Catmull-Rom on an axis whose values are mirrored at both ends, as azimuths 0 .. pi are.
 inline Stencil mirroredStencil(double position, int n)
 {

@@ -130,7 +130,7 @@ TEST_CASE("scattering table: what is exponential over the nodes is exact between
     const ScatteringTable table(model, "sky");
     const auto places = physics::altitudeNodes(planet, 31); // ten steps per layer, in the same measure
     for (const int step : {3, 15, 28})
-        for (const double sunPlace : {0.2, 1.5, 3.9})
+        for (const double sunPlace : {0.2, 1.5, suns - 2.1}) // the last interval ends at the zenith: below
             for (const double viewPlace : {0.5, 1.7, 2.9}) {
                 const double h = places[step], horizon = physics::horizonElevation(planet, h), range = pi / 2 - horizon;
                 const double v = vDark + (1 - vDark) * sunPlace / (suns - 1);
@@ -142,6 +142,23 @@ TEST_CASE("scattering table: what is exponential over the nodes is exact between
                 CHECK(sampled(table, h, sun, view, 0.3)[0] ==
                       Approx(std::exp(-0.9 * step / 10. + 2.5 * sunPlace - 0.7 * viewPlace)).epsilon(1e-5)); // floats
             }
+}
+
+TEST_CASE("scattering table: a Sun near the zenith is seen from both sides of it")
+{
+    const Scratch scratch;
+    // On the way past the zenith azimuths turn round, so that this goes straight through it.
+    const Model model = written(scratch, scatteringSpec(2), [](int, int sun, int, int azimuth, int) {
+        return std::exp(0.7 * (suns - 1 - sun) * std::cos(pi * azimuth / (azimuths - 1)));
+    });
+    const ScatteringTable table(model, "sky");
+    const double horizon = physics::horizonElevation(planet, 0), range = pi / 2 - horizon;
+    for (const double fromZenith : {0., 0.1, 0.5, 0.8, 1.})
+        for (int azimuth = 0; azimuth < azimuths; ++azimuth) {
+            const double v = 1 - (1 - vDark) * fromZenith / (suns - 1), phi = pi * azimuth / (azimuths - 1);
+            const double sun = horizon + range * std::sinh(physics::sunTableScale * v) / std::sinh(physics::sunTableScale);
+            CHECK(sampled(table, 0, sun, 0.5, phi)[0] == Approx(std::exp(0.7 * fromZenith * std::cos(phi))).epsilon(1e-5)); // floats
+        }
 }
 
 TEST_CASE("scattering table: azimuth goes round, the same on both sides of the Sun")

@@ -121,3 +121,25 @@ TEST_CASE("stencil: beside darkness it is continuous, finite, positive, and no b
         before = result;
     }
 }
+
+TEST_CASE("stencil: a Sun near the zenith is interpolated from both sides of it")
+{
+    // A sky that varies as sin(e - pi/2) cos(phi): odd in the Sun's way past the zenith, where phi turns into pi - phi.
+    constexpr int n = 5;
+    const auto skyAt = [](double fromZenith, double cosine) { return std::sin(fromZenith) * cosine; };
+    for (const double position : {3.2, 3.5, 3.9, 4.}) {
+        const auto [s, beyond] = sunStencil(position, n);
+        REQUIRE(beyond);
+        REQUIRE(s.index[3] == n - 2);
+        double sum = 0, weights = 0;
+        for (int i = 0; i < 4; ++i) {
+            sum += s.weight[i] * skyAt(0.4 * (n - 1 - s.index[i]), i == 3 ? -1 : 1);
+            weights += s.weight[i];
+        }
+        CHECK(weights == Approx(1));
+        CHECK(sum == Approx(skyAt(0.4 * (n - 1 - position), 1)).margin(0.002)); // the cubic: 0.4^3 / 60
+    }
+    CHECK_FALSE(sunStencil(2.5, n).beyondZenith);
+    const auto plain = uniformStencil(2.5, n);
+    CHECK(sunStencil(2.5, n).stencil.weight == plain.weight);
+}

@@ -61,12 +61,13 @@ double rms(const std::vector<Luminance>& one, const std::vector<Luminance>& othe
 TEST_CASE("eclipse table: in concentric totality and near it, the light that is followed on the fly", "[gl]")
 {
     Fixture with;
-    // Of the table's 8 Suns the highest stand 30 and 90 degrees high: at 60 degrees the horizon, bright beyond the umbra, is interpolated worst.
+    // Of the table's 8 Suns the highest stand 30 and 90 degrees high: at 60 degrees the horizon, bright beyond the umbra, is interpolated worst
+    // (three times as badly by a reader that does not know what lies beyond the zenith).
     struct Case {
         double zenith, rms, mean, median;
     };
     for (const auto& [zenith, mostRms, mostMean, mostMedian] :
-         {Case{30, 0.15, 0.04, 0.04}, Case{55, 0.05, 0.015, 0.015}, Case{80, 0.03, 0.015, 0.015}})
+         {Case{30, 0.065, 0.015, 0.015}, Case{55, 0.05, 0.015, 0.015}, Case{80, 0.03, 0.015, 0.015}})
         for (const double share : {0., 0.028}) {
             CAPTURE(zenith, share);
             auto settings = with.settings(zenith, share);
