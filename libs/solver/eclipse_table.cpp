@@ -13,8 +13,13 @@ namespace {
 
 /// Most altitudes at which quotients are computed; between them cubics of logarithms, at equal shares of the axes of Sun and view.
 constexpr int solvedAltitudes = 12;
+/// Most Suns of the axis for which every one is solved; of more, every second one in the upper half of the axis, by day, is, and between
+/// them stand cubics of logarithms too. Near the horizon and below it quotients change too fast.
+constexpr int solvedSuns = 16;
 /// Quotients below this are noise: totality leaves 1e-4 or more.
 constexpr float leastRatio = 1e-9f;
+/// On the ground no air is seen below the horizon. What is seen from this altitude, m, is what quotients in between go towards.
+constexpr double leastAltitude = 1;
 /// Share of the stage's time that goes into quotients, for the progress bar.
 constexpr double solving = 0.9;
 
@@ -58,6 +63,22 @@ eclipse::FieldSettings tableSettings(const std::string& quality)
 
 int solvedCount(const atmo::SizeScattering& size) { return std::min(size.altitude, solvedAltitudes); }
 
+/// Which Suns of the axis are solved, from the dark end to the zenith; the same at all altitudes.
+std::vector<bool> sunsSolved(const atmo::SizeScattering& size)
+{
+    const int count = size.sunZenithAngle;
+    std::vector<bool> result(static_cast<std::size_t>(count), true);
+    for (int j = count - 2; count > solvedSuns && j > count / 2; j -= 2)
+        result[static_cast<std::size_t>(j)] = false;
+    return result;
+}
+
+int solvedSunCount(const atmo::SizeScattering& size)
+{
+    const auto solved = sunsSolved(size);
+    return static_cast<int>(std::count(solved.begin(), solved.end(), true));
+}
+
 /// ln of the quotients of all Suns, views and azimuths at one of the altitudes that are solved.
 class Ratios
 {
@@ -73,24 +94,44 @@ public:
         const auto& planet = job_.scene.profile.planet();
         const int views = job_.size.viewZenithAngle;
         std::vector<eclipse::ViewRay> rays;
-        const auto mu = physics::viewMuNodes(planet, altitude, views);
-        for (int k = 0; k < views; ++k)
-            rays.push_back({altitude, mu[k], k < views / 2, 0});
+        for (int k = 0; k < views; ++k) {
+            const double from = k < views / 2 ? std::max(altitude, leastAltitude) : altitude;
+            rays.push_back({from, physics::viewMuNodes(planet, from, views)[k], k < views / 2, 0});
+        }
         const auto azimuths = physics::azimuthNodes(job_.size.dotViewSun);
         const auto suns = physics::sunElevationNodes(planet, altitude, job_.vDark, job_.size.sunZenithAngle);
         const auto traced = eclipse::traceViews(*rays_, rays);
-        std::vector<float> result;
-        result.reserve(suns.size() * rays.size() * azimuths.size() * job_.scene.optics.wavelengths);
+        const std::size_t wavelengths = job_.scene.optics.wavelengths, sky = rays.size() * azimuths.size() * wavelengths;
+        const auto solved = sunsSolved(job_.size);
+        std::vector<float> result(suns.size() * sky);
+        int done = 0;
         for (std::size_t j = 0; j < suns.size(); ++j) {
-            breath(static_cast<int>(j));
+            if (!solved[j])
+                continue;
+            breath(done);
             eclipse::ScatteredField field(rays_, job_.scene.sun, bodies(altitude, suns[j]), orders());
             while (!field.step())
-                breath(static_cast<int>(j));
+                breath(done);
             const auto light = field.view(*traced, azimuths);
+            float* out = &result[j * sky];
             for (int v = 0; v < views; ++v)
                 for (int a = 0; a < light.azimuths; ++a)
                     for (int w = 0; w < light.wavelengths; ++w)
-                        result.push_back(std::log(std::max(leastRatio, light.skyRatio(v, a, w))));
+                        *out++ = std::log(std::max(leastRatio, light.skyRatio(v, a, w)));
+            ++done;
+        }
+        // Half-way between four neighbours; the one beyond the zenith is the Sun on its other side.
+        for (std::size_t j = 0; j < suns.size(); ++j) {
+            if (solved[j])
+                continue;
+            const bool beyond = j + 3 >= suns.size();
+            const float *low = &result[(j - 3) * sky], *below = &result[(j - 1) * sky], *above = &result[(j + 1) * sky];
+            const float* high = beyond ? below : &result[(j + 3) * sky];
+            for (std::size_t i = 0; i < sky; ++i) {
+                const std::size_t azimuth = i / wavelengths % azimuths.size();
+                const std::size_t opposite = i + (azimuths.size() - 1 - 2 * azimuth) * wavelengths;
+                result[j * sky + i] = (9 * (below[i] + above[i]) - low[i] - high[beyond ? opposite : i]) / 16;
+            }
         }
         return result;
     }
@@ -149,14 +190,14 @@ atmo::SizeScattering eclipseTableSize(const atmo::Description& d)
 int eclipseStates(const atmo::Description& d, const Options& options)
 {
     const auto size = eclipseTableSize(d);
-    const int solved = solvedCount(size);
+    const int solved = solvedCount(size), suns = solvedSunCount(size);
     if (!options.altitudeLayers)
-        return solved * size.sunZenithAngle;
+        return solved * suns;
     // Stencils of the layers asked for reach one solved altitude farther on both sides.
     const double step = double(solved - 1) / std::max(1, size.altitude - 1);
     const int first = std::max(0, static_cast<int>(options.altitudeLayers->first * step) - 1);
     const int last = std::min(solved - 1, static_cast<int>(options.altitudeLayers->second * step) + 2);
-    return (last - first + 1) * size.sunZenithAngle;
+    return (last - first + 1) * suns;
 }
 
 void bakeEclipsed(const gl::Api& api, const BakeJob& ordinary, const physics::Moments& field, model::ModelWriter& writer,
@@ -181,7 +222,7 @@ void bakeEclipsed(const gl::Api& api, const BakeJob& ordinary, const physics::Mo
         auto& found = known[k];
         if (found.empty()) {
             found = ratios.at(heights[k], [&](int sun) { advance(solving * std::min(1., double(done + sun) / states)); });
-            done += suns;
+            done += solvedSunCount(job.size);
         }
         return found;
     };

@@ -63,6 +63,8 @@ TEST_CASE("eclipse table: an odd number of views is rounded up, layers asked for
     Options options = draft();
     options.altitudeLayers = {0, 0};
     CHECK(eclipseStates(description, options) == 3 * 3);
+    description.eclipsedDoubleScatteringSize = {5, 7, 32, 2, 10};
+    CHECK(eclipseStates(description, options) == 3 * 25); // of the upper half every second Sun
 }
 
 TEST_CASE("eclipse table: the ordinary sky times the quotient of the eclipse's field", "[gl]")
@@ -112,6 +114,33 @@ TEST_CASE("eclipse table: the ordinary sky times the quotient of the eclipse's f
         const float ratio = light.skyRatio(i / 6, i / 2 % 3, i % 2);
         CHECK(ratio < 0.03f);
         CHECK(eclipsed[first + std::size_t(i)] / ordinary[first + std::size_t(i)] == Approx(ratio).epsilon(0.15));
+    }
+}
+
+TEST_CASE("eclipse table: between the ground and the first altitude that is solved, the air below the horizon is dark too", "[gl]")
+{
+    auto context = gl::testing::context();
+    if (!context)
+        return;
+    Options options = draft();
+    options.parts = {Part::Moments, Part::Eclipsed, Part::Multiple};
+    options.radiance = true;
+    options.texturePrecisionBits = 24;
+    options.altitudeLayers = {1, 1}; // of 24: half-way, seen from the ground there is no such air
+    auto text = scene();
+    text.views = "4";
+    text.azimuths = "3";
+    text.suns = "2";
+    text.altitudes = "24";
+    Run run(*context, text.parse(), options);
+    const auto eclipsed = run.model.readAll("eclipsed-double-scattering"), ordinary = run.model.readAll("multiple-scattering");
+    REQUIRE(eclipsed.size() == ordinary.size());
+    // The zenith Sun, [view][azimuth][wavelength], from nadir up.
+    const std::size_t first = 1 * 4 * 3 * 2, half = 2 * 3 * 2;
+    for (std::size_t i = 0; i < half; ++i) {
+        INFO("texel " << i);
+        CHECK(eclipsed[first + i] < 0.05f * ordinary[first + i]);
+        CHECK(eclipsed[first + i] > 0);
     }
 }
 
