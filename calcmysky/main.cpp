@@ -6,6 +6,8 @@
 #include "atmo/parse.hpp"
 #include "gl/context.hpp"
 #include "program.hpp"
+#include "solver/medium_tables.hpp"
+#include "solver/quality.hpp"
 #include "solver/solve.hpp"
 
 int main(int argc, char** argv)
@@ -18,7 +20,15 @@ int main(int argc, char** argv)
         const std::string text{std::istreambuf_iterator<char>(std::cin), {}};
         return atmo::parse(text, "<standard input>", ".", options);
     };
-    services.plan = solver::plan;
+    services.plan = [](const atmo::Description& description, const solver::Options& options,
+                       const gl::HeadlessOptions& openGl, solver::Progress& progress) {
+        if (!options.qualityByTolerance)
+            return solver::plan(description, options);
+        gl::HeadlessContext context(openGl);
+        std::vector<std::string> warnings; // solve() will give them
+        const auto medium = solver::evaluateMedium(description, context.api(), warnings);
+        return solver::plan(description, solver::settled(options, medium, progress));
+    };
     services.solve = [](const atmo::Description& description, const solver::Options& options,
                         const gl::HeadlessOptions& openGl, const std::filesystem::path& outDir,
                         solver::Progress& progress) {

@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/suggest.hpp"
 #include "help.hpp"
+#include "solver/quality.hpp"
 #include "values.hpp"
 
 namespace sky::cli {
@@ -17,8 +18,8 @@ namespace {
 /// The options as they were typed; turned into a Request once all of them are known.
 struct Typed {
     std::string description, outDir;
-    std::optional<std::string> only, skip, altitudes, tolerance, precision, maxMemory, device;
-    std::string quality = "normal", progress = "auto", backend = "auto", extendSpectra = "error";
+    std::optional<std::string> only, skip, altitudes, quality, tolerance, precision, maxMemory, device;
+    std::string progress = "auto", backend = "auto", extendSpectra = "error";
     bool radiance = false, noEclipsed = false, noTextures = false, validate = false, dryRun = false,
          listDevices = false;
     bool pointSampled = false, quiet = false, debug = false, debugFull = false;
@@ -54,7 +55,7 @@ void addModelOptions(CLI::App& app, Typed& typed)
         ->option_text("NAME")
         ->group(accuracy);
     app.add_option("--tolerance", typed.tolerance,
-                   "Stop adding orders and harmonics once they change less than this part")
+                   "Pick the cheapest quality predicted to err by less than this part.\nBeside --quality: drop the orders and harmonics that change less")
         ->option_text("X")
         ->group(accuracy);
     app.add_flag("--point-sampled-spectra", typed.pointSampled,
@@ -200,8 +201,9 @@ solver::Options solverOptions(const Typed& typed)
         options.altitudeLayers = readLayers("--altitudes", *typed.altitudes);
     if (typed.tolerance)
         options.tolerance = readFraction("--tolerance", *typed.tolerance);
-    readChoice("--quality", typed.quality, {"draft", "normal", "fine", "reference"});
-    options.quality = typed.quality;
+    if (typed.quality)
+        options.quality = solver::qualityNames()[readChoice("--quality", *typed.quality, solver::qualityNames())];
+    options.qualityByTolerance = typed.tolerance && !typed.quality;
     if (typed.maxMemory)
         options.maxMemoryBytes = readSize("--max-memory", *typed.maxMemory);
     return options;

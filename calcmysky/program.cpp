@@ -64,7 +64,7 @@ int perform(const Request& request, const Services& services, Reporter& reporter
     case Action::Subcommand:
         return request.subcommand->run(request);
     case Action::DryRun:
-        printPlan(services.plan(read(request, services), request.solver), std::cout);
+        printPlan(services.plan(read(request, services), request.solver, request.gl, reporter), std::cout);
         return exitDone;
     case Action::Validate:
         services.validate(read(request, services), request.gl);

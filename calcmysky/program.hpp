@@ -12,7 +12,10 @@ namespace sky::cli {
 /// What the program calls to do the work. main.cpp puts the libraries here, tests what they want to see.
 struct Services {
     std::function<atmo::Description(const std::string& path, const atmo::ParseOptions&)> read; ///< path may be "-"
-    std::function<std::vector<solver::PlanItem>(const atmo::Description&, const solver::Options&)> plan;
+    /// Needs OpenGL only where the quality is to be picked; tells what it picked.
+    std::function<std::vector<solver::PlanItem>(const atmo::Description&, const solver::Options&, const gl::HeadlessOptions&,
+                                                solver::Progress&)>
+        plan;
     std::function<void(const atmo::Description&, const solver::Options&, const gl::HeadlessOptions&,
                        const std::filesystem::path& outDir, solver::Progress&)>
         solve;

@@ -70,6 +70,11 @@ public:
                        << std::endl;
     }
     void note(const std::string& text) override { to_.stream << text << std::endl; }
+    void remark(const std::string& sentence) override
+    {
+        if (!quiet_)
+            note(sentence);
+    }
     void finished() override {}
     void failed(const std::string& message, int) override { printError(to_, message); }
 
@@ -177,6 +182,7 @@ public:
     }
     void warning(const std::string& sentence) override { print({{"event", "warning"}, {"message", sentence}}); }
     void note(const std::string& text) override { print({{"event", "note"}, {"message", text}}); }
+    void remark(const std::string& sentence) override { note(sentence); }
     void finished() override
     {
         clock_.reach(1);

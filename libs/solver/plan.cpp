@@ -1,7 +1,10 @@
 #include "solver/plan.hpp"
 #include "solver/eclipse_table.hpp"
 #include "solver/light_pollution.hpp"
+#include "solver/quality.hpp"
 #include <algorithm>
+#include <iomanip>
+#include <sstream>
 
 namespace sky::solver {
 
@@ -9,10 +12,6 @@ namespace {
 
 /// Visits of a ray's node per second for one set of four wavelengths, a rough guess for llvmpipe on two cores.
 constexpr double directVisits = 1.6e8, scatteredVisits = 8e7;
-constexpr double qualityFactor(const std::string& quality)
-{
-    return quality == "draft" ? 0.4 : quality == "fine" ? 5 : quality == "reference" ? 60 : 1;
-}
 
 /// Seconds for one field of an eclipse of three events and eight wavelengths, on two cores.
 constexpr double eclipseSeconds = 0.09;
@@ -32,6 +31,15 @@ double texels(const atmo::SizeScattering& s, const Options& options)
 {
     const double layers = options.altitudeLayers ? options.altitudeLayers->second - options.altitudeLayers->first + 1 : s.altitude;
     return double(s.viewZenithAngle) * s.dotViewSun * s.sunZenithAngle * layers;
+}
+
+std::string qualityOf(const Options& options)
+{
+    std::ostringstream text;
+    text << "quality " << options.quality;
+    if (options.predictedError)
+        text << ", predicted error " << std::setprecision(2) << 100 * *options.predictedError << " %";
+    return text.str();
 }
 
 } // namespace
@@ -70,7 +78,7 @@ Needs needsOf(const atmo::Description& d, const Options& options)
 Work workOf(const atmo::Description& d, const Options& options, const Needs& needs)
 {
     Work w;
-    const double sets = (d.wavelengths.count + 3) / 4, quality = qualityFactor(options.quality);
+    const double sets = (d.wavelengths.count + 3) / 4, quality = relativeWork(options.quality);
     const double events = d.allScatteringOrders ? 8 : std::max(1, d.scatteringOrders - 1);
     w.medium = 0.05;
     w.sunlight = 0.15;
@@ -108,7 +116,7 @@ std::vector<PlanItem> plan(const atmo::Description& d, const Options& options)
     std::vector<PlanItem> items;
     items.push_back({"medium", true, "densities and phase functions as tables", memory(4e6), size(3e5), work.medium + work.sunlight});
     if (needs.field)
-        items.push_back({"moments", true, "", memory(10e6 + 5e6 * sets), size(needs.moments ? 1.2e5 * sets : 0), work.moments});
+        items.push_back({"moments", true, qualityOf(options), memory(5e6 * sets + 4 * 16 * sets * sweepSize(options.quality)), size(needs.moments ? 1.2e5 * sets : 0), work.moments});
     if (needs.transmittance)
         items.push_back({"transmittance", true, "", memory(1e6), size(d.transmittanceSize.altitude * d.transmittanceSize.zenithAngle * sets * 16 * compressed), work.transmittance});
     if (needs.irradiance)

@@ -3,10 +3,87 @@
 #include "physics/harmonics.hpp"
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <map>
+#include <sstream>
 
 namespace sky::solver {
 
 namespace {
+
+/// A point of the front, and its error in each kind of air. The order of the list is that of processor time. Errors are the larger one of what
+/// tables by Monte Carlo show, their noise removed, and of what separates the point from `reference` at the same places:
+///   bench_front front AIR.atmo TABLE.csv --orders all --presets draft!,normal!,good!,fine!,finer! [--against reference]
+/// for the airs and tables of bench/run: thin, earth, dense, hazy, cloudy. Where the tables can't tell finer points apart, these keep the error of
+/// the coarser one.
+struct Point {
+    std::string name;
+    double work; ///< processor time of the moments by that of `normal`, about the mean over the kinds of air
+    physics::MomentSettings moments;
+    BakeSettings bake;
+    std::map<Air, double> error; ///< rms, the worst of day, sunset and twilight
+};
+
+const std::vector<Point>& points()
+{
+    using enum Air;
+    static const std::vector<Point> list{
+        {"draft", 0.5, {12, 24, 3, 4, 3, 6, 4, 48, 8, true}, {20, 8, 2}, {{Clear, 0.010}, {Dusty, 0.024}, {Dense, 0.018}, {Hazy, 0.012}, {Cloudy, 0.023}}},
+        {"normal", 1, {14, 28, 5, 7, 4, 8, 6, 64, 10, true}, {64, 10, 3}, {{Clear, 0.0056}, {Dusty, 0.0092}, {Dense, 0.0091}, {Hazy, 0.015}, {Cloudy, 0.025}}},
+        {"good", 2.3, {18, 36, 8, 8, 5, 10, 10, 96, 14, true}, {72, 14, 3}, {{Clear, 0.0027}, {Dusty, 0.0068}, {Dense, 0.0060}, {Hazy, 0.0098}, {Cloudy, 0.023}}},
+        {"fine", 6, {24, 48, 8, 8, 6, 12, 10, 160, 20, true}, {80, 24, 4}, {{Clear, 0.0027}, {Dusty, 0.0067}, {Dense, 0.0024}, {Hazy, 0.0092}, {Cloudy, 0.022}}},
+        {"finer", 16, {30, 60, 10, 10, 8, 16, 12, 176, 28, true}, {120, 32, 5}, {{Clear, 0.0026}, {Dusty, 0.0022}, {Dense, 0.0009}, {Hazy, 0.0092}, {Cloudy, 0.022}}},
+        {"reference", 60, {40, 80, 12, 12, 10, 20, 16, 192, 40, true}, {160, 48, 6}, {{Clear, 0.0026}, {Dusty, 0.0021}, {Dense, 0.0009}, {Hazy, 0.0092}, {Cloudy, 0.022}}},
+    };
+    return list;
+}
+
+const Point& pointNamed(const std::string& name)
+{
+    for (const Point& point : points())
+        if (point.name == name)
+            return point;
+    std::string known;
+    for (const Point& point : points())
+        known += (known.empty() ? "" : &point == &points().back() ? " or " : ", ") + point.name;
+    throw UsageError("--quality is \"" + name + "\"; expected " + known + ".");
+}
+
+bool truncatesPeaks(const physics::Medium& medium, const int degree)
+{
+    const auto optics = physics::makeOptics(medium, degree, true);
+    return std::any_of(optics.truncation.begin(), optics.truncation.end(), [](double f) { return f > 0; });
+}
+
+/// Vertical optical depth of scattering, the mean over wavelengths.
+double scatteringDepth(const physics::Medium& medium)
+{
+    double sum = 0;
+    for (const auto& species : medium.species)
+        if (species.scatters())
+            for (int w = 0; w < medium.wavelengthCount(); ++w)
+                sum += physics::verticalColumn(medium, species) * species.extinctionCrossSection[w] * species.singleScatteringAlbedo[w];
+    return sum / medium.wavelengthCount();
+}
+
+const char* nameOf(const Air air)
+{
+    switch (air) {
+    case Air::Clear: return "air without particles";
+    case Air::Dusty: return "air with few particles";
+    case Air::Dense: return "dense air";
+    case Air::Hazy: return "haze";
+    case Air::Cloudy: return "clouds";
+    }
+    return "";
+}
+
+std::string percent(const double value)
+{
+    std::ostringstream text;
+    text << std::setprecision(2) << 100 * value << " %";
+    return text.str();
+}
 
 /// Legendre moments below this don't show.
 constexpr double negligibleMoment = 1e-4;
@@ -38,29 +115,24 @@ int neededDegree(const physics::Medium& medium, int most, double tolerance)
 
 } // namespace
 
+const std::vector<std::string>& qualityNames()
+{
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> list;
+        for (const Point& point : points())
+            list.push_back(point.name);
+        return list;
+    }();
+    return names;
+}
+
 Quality qualityFor(const std::string& name, const physics::Medium& medium, const double tolerance)
 {
-    Quality q;
+    const Point& point = pointNamed(name);
+    Quality q{point.moments, point.bake};
     auto& m = q.moments;
-    if (name == "draft") {
-        m = {12, 24, 3, 4, 3, 6, 4, 48, 8, true};
-        q.bake = {20, 8, 2};
-    } else if (name == "normal") {
-        m = {14, 28, 5, 7, 4, 8, 6, 64, 10, true};
-        q.bake = {64, 10, 3};
-    } else if (name == "fine") {
-        m = {24, 48, 8, 8, 6, 12, 10, 160, 20, true};
-        q.bake = {80, 24, 4};
-    } else if (name == "reference") {
-        m = {40, 80, 12, 12, 10, 20, 16, 192, 40, true};
-        q.bake = {160, 48, 6};
-    } else {
-        throw UsageError("--quality is \"" + name + "\"; expected draft, normal, fine or reference.");
-    }
     // A peak worth truncating is worth more harmonics, and directions that resolve them.
-    const auto optics = physics::makeOptics(medium, m.degree, true);
-    const bool truncated = std::any_of(optics.truncation.begin(), optics.truncation.end(), [](double f) { return f > 0; });
-    if (truncated) {
+    if (truncatesPeaks(medium, m.degree)) {
         m.degree = std::max(12, 2 * m.degree);
         m.groundDirections += 2;
         m.skyDirections += 4;
@@ -68,6 +140,56 @@ Quality qualityFor(const std::string& name, const physics::Medium& medium, const
     }
     m.degree = neededDegree(medium, m.degree, tolerance);
     return q;
+}
+
+double relativeWork(const std::string& quality) { return pointNamed(quality).work; }
+
+double sweepSize(const std::string& quality)
+{
+    constexpr double moreLevels = 1.5; // which the medium asks for
+    const auto& m = pointNamed(quality).moments;
+    return moreLevels * m.altitudes * m.suns * m.azimuths * (m.groundDirections + m.limbDirections + m.skyDirections);
+}
+
+Air airOf(const physics::Medium& medium)
+{
+    constexpr double thick = 1.2;
+    const bool dense = scatteringDepth(medium) > thick;
+    const int degree = pointNamed("normal").moments.degree;
+    if (truncatesPeaks(medium, degree))
+        return dense ? Air::Cloudy : Air::Hazy;
+    return dense ? Air::Dense : neededDegree(medium, degree, 0) > 2 ? Air::Dusty : Air::Clear;
+}
+
+Pick pickQuality(const double tolerance, const physics::Medium& medium)
+{
+    const Air air = airOf(medium);
+    const auto reaches = [&](const Point& point) { return point.error.at(air) <= tolerance; };
+    const auto found = std::find_if(points().begin(), points().end(), reaches);
+    const bool reached = found != points().end();
+    const auto lessError = [&](const Point& a, const Point& b) { return a.error.at(air) < b.error.at(air); };
+    const Point& point = *(reached ? found : std::min_element(points().begin(), points().end(), lessError)); // the first of equals
+    const double error = point.error.at(air);
+    const std::string what = "quality " + point.name + ", whose error in " + nameOf(air) + " is predicted to be " + percent(error);
+    return {point.name, error, reached,
+            reached ? "A tolerance of " + percent(tolerance) + " takes " + what + "."
+                    : "No quality is predicted to reach a tolerance of " + percent(tolerance) + ": taken is " + what + "."};
+}
+
+Options settled(Options options, const physics::Medium& medium, Progress& progress)
+{
+    if (!options.qualityByTolerance || !options.tolerance)
+        return options;
+    const Pick pick = pickQuality(*options.tolerance, medium);
+    options.quality = pick.quality;
+    options.predictedError = pick.predictedError;
+    pick.reached ? progress.remark(pick.sentence) : progress.warning(pick.sentence);
+    return options;
+}
+
+double orderTolerance(const Options& options)
+{
+    return options.tolerance.value_or(0) * (options.qualityByTolerance ? 0.25 : 1);
 }
 
 } // namespace sky::solver

@@ -3,6 +3,7 @@
 #include "physics/optics.hpp"
 #include "solver/bake.hpp"
 #include <string>
+#include <vector>
 
 namespace sky::solver {
 
@@ -12,9 +13,46 @@ struct Quality {
     BakeSettings bake;
 };
 
-/// \param name   draft, normal, fine or reference     throws UsageError
+/// Names of the points of the front, from the cheapest to the finest: draft, normal, fine, reference and what lies between them.
+const std::vector<std::string>& qualityNames();
+
+/// \param name   one of qualityNames()                throws UsageError
 /// \param medium    what it holds decides the degree: molecules alone need 2; peaks that are truncated more than the rest
 /// \param tolerance drops harmonics that change less than this share of the light; 0: only those that are not there
 Quality qualityFor(const std::string& name, const physics::Medium& medium, double tolerance = 0);
+
+/// Time of the moments at this quality, by that of `normal`.
+double relativeWork(const std::string& quality);
+
+/// Radiances that one sweep gathers for one wavelength, as far as they can be told before the air is known.
+double sweepSize(const std::string& quality);
+
+/// Kinds of air by what makes them hard, from the easiest on.
+enum class Air {
+    Clear,  ///< a phase function of degree 2 or less: molecules
+    Dusty,  ///< sharper ones, too thin for their peaks to be truncated
+    Dense,  ///< no peak truncated, and an optical depth of scattering above 1.2
+    Hazy,   ///< truncated peaks in an optical depth of scattering up to 1.2
+    Cloudy, ///< and above
+};
+Air airOf(const physics::Medium& medium);
+
+/// A quality that a tolerance picked.
+struct Pick {
+    std::string quality;
+    double predictedError; ///< rms, relative, of the radiance from moments in the worst of day, sunset and twilight: docs/accuracy
+    bool reached;          ///< predictedError <= tolerance
+    std::string sentence;  ///< all that, for people
+};
+
+/// The cheapest quality predicted to reach `tolerance` in such air; where none is, the cheapest of those that err least.
+Pick pickQuality(double tolerance, const physics::Medium& medium);
+
+/// `options` with their quality picked, where they ask for that. Tells `progress` what and why.
+Options settled(Options options, const physics::Medium& medium, Progress& progress);
+
+/// From which change on orders and harmonics are dropped. A picked quality leaves them a quarter of the tolerance: in the root of the
+/// sum of squares, next to what the grid takes, that is 3 %.
+double orderTolerance(const Options& options);
 
 } // namespace sky::solver

@@ -13,7 +13,9 @@
 #include "solver/plan.hpp"
 #include "physics/table_axes.hpp"
 #include "solver/quality.hpp"
+#include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace sky::solver {
 
@@ -30,13 +32,19 @@ public:
         check();
         const double from = done_;
         done_ += seconds;
-        progress_.stage(name, std::min(1., from / whole_));
+        progress_.stage(name, reached(from));
         return [this, from, seconds](double fraction) {
             check();
-            progress_.advance(std::min(1., (from + seconds * fraction) / whole_));
+            progress_.advance(reached(from + seconds * fraction));
         };
     }
     const Work& work() const { return work_; }
+    /// Once more is known of what will be done. The fractions that were told don't fall.
+    void reestimate(const Work& work)
+    {
+        work_ = work;
+        whole_ = work.total();
+    }
 
 private:
     void check() const
@@ -44,9 +52,14 @@ private:
         if (progress_.cancelled())
             throw Cancelled("Stopped on request; nothing was written.");
     }
+    double reached(double seconds)
+    {
+        fraction_ = std::clamp(seconds / whole_, fraction_, 1.);
+        return fraction_;
+    }
     Progress& progress_;
     Work work_;
-    double whole_, done_ = 0;
+    double whole_, done_ = 0, fraction_ = 0;
 };
 
 model::Manifest describe(const atmo::Description& description, const Options& options, const physics::Medium& medium)
@@ -66,6 +79,10 @@ model::Manifest describe(const atmo::Description& description, const Options& op
     manifest.scatteringOrders = description.scatteringOrders;
     manifest.allScatteringOrders = description.allScatteringOrders;
     manifest.settings["quality"] = options.quality;
+    if (options.tolerance)
+        manifest.settings["tolerance"] = (std::ostringstream() << *options.tolerance).str();
+    if (options.predictedError)
+        manifest.estimatedError["rms, as predicted"] = *options.predictedError;
     manifest.settings["radiance"] = options.radiance ? "yes" : "no";
     manifest.settings["texture-save-precision"] = std::to_string(options.texturePrecisionBits);
     // What a renderer needs to know of tables that it fills itself.
@@ -76,12 +93,12 @@ model::Manifest describe(const atmo::Description& description, const Options& op
 
 } // namespace
 
-void solve(const atmo::Description& description, const Options& options, gl::HeadlessContext& context,
+void solve(const atmo::Description& description, const Options& asked, gl::HeadlessContext& context,
            const std::filesystem::path& outDir, Progress& progress)
 {
     const gl::Api& api = context.api();
-    const Needs needs = needsOf(description, options);
-    Stages stages(progress, workOf(description, options, needs));
+    const Needs needs = needsOf(description, asked);
+    Stages stages(progress, workOf(description, asked, needs));
     model::ModelWriter writer(outDir);
 
     // 1. The medium as tables.
@@ -91,6 +108,8 @@ void solve(const atmo::Description& description, const Options& options, gl::Hea
     const auto glow = glowSpectrum(description, warnings);
     for (const auto& sentence : warnings)
         progress.warning(sentence);
+    const Options options = settled(asked, medium, progress);
+    stages.reestimate(workOf(description, options, needs));
     model::Manifest manifest = describe(description, options, medium);
     manifest.lightPollutionRadiance = glow;
     manifest.warnings = warnings;
@@ -100,7 +119,7 @@ void solve(const atmo::Description& description, const Options& options, gl::Hea
 
     // 2. Optics, and sunlight at every altitude.
     breath = stages.begin("sunlight", stages.work().sunlight);
-    const Quality quality = qualityFor(options.quality, medium, options.tolerance.value_or(0));
+    const Quality quality = qualityFor(options.quality, medium, orderTolerance(options));
     const physics::Profile profile(medium);
     const physics::Optics optics = physics::makeOptics(medium, quality.moments.degree, quality.moments.truncatePeaks);
     const physics::SunTable sun(profile, optics, medium.sunAngularRadius);
@@ -115,7 +134,7 @@ void solve(const atmo::Description& description, const Options& options, gl::Hea
     if (needs.field) {
         breath = stages.begin("moments", stages.work().moments);
         const OrderLimit limit{std::max(2, description.scatteringOrders), description.allScatteringOrders,
-                               options.tolerance.value_or(0)};
+                               orderTolerance(options)};
         field = iterate(api, scene, grid, quality.moments, limit, needs.everyEvent, breath);
         manifest.settings["moments.events"] = std::to_string(field.eventCount);
         if (limit.all || options.tolerance)

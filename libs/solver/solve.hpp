@@ -50,6 +50,8 @@ struct Options {
     std::optional<std::pair<int, int>> altitudeLayers;          ///< first and last layer to bake, counted from 0
     std::optional<double> tolerance;                            ///< relative; below it orders and harmonics stop
     std::string quality = "normal";                             ///< draft, normal, fine, reference
+    bool qualityByTolerance = false;                            ///< replace it by the cheapest predicted to reach the tolerance
+    std::optional<double> predictedError;                       ///< of a quality that was picked so: see settled()
     bool saveIrradianceOrders = false;
     bool saveScatteringDensity = false;
     bool saveScatteringDensity2FromGround = false;
@@ -68,6 +70,8 @@ struct Progress {
     /// True once the user wants to stop; ask often, then throw Cancelled.
     virtual bool cancelled() const = 0;
     virtual void warning(const std::string& sentence) = 0;
+    /// Something to know that is no reason to worry.
+    virtual void remark(const std::string&) {}
 };
 
 /// One thing that a run would compute or skip.
@@ -80,7 +84,7 @@ struct PlanItem {
     double seconds = 0;          ///< estimate
 };
 
-/// What solve() would do with the same arguments. Needs no OpenGL.
+/// What solve() would do with the same arguments. Needs no OpenGL; a quality that is to be picked must be settled() before.
 std::vector<PlanItem> plan(const atmo::Description& description, const Options& options);
 
 /// Computes the model and puts it into `outDir` in one step at the end: whatever happens before, an old model stays whole.

@@ -114,8 +114,9 @@ TEST_CASE_METHOD(Desk, "each option reaches the solver")
     CHECK_THAT(computed({"--no-eds-tex"}), Contains("multiple light-pollution\n"));
     CHECK_THAT(computed({"--no-save-tex"}), Contains("parts moments\n"));
     CHECK_THAT(computed({"--altitudes", "2..5"}), Contains("layers=2..5"));
-    CHECK_THAT(computed({"--tolerance", "0.01"}), Contains("tolerance=0.01"));
+    CHECK_THAT(computed({"--tolerance", "0.01"}), Contains("quality=picked tolerance=0.01"));
     CHECK_THAT(computed({"--quality", "fine"}), Contains("quality=fine"));
+    CHECK_THAT(computed({"--tolerance", "0.01", "--quality", "fine"}), Contains("quality=fine tolerance=0.01"));
     CHECK_THAT(computed({"--max-memory", "100MB"}), Contains("memory=100000000"));
     CHECK_THAT(computed({"--point-sampled-spectra"}), Contains("point=1"));
     CHECK_THAT(computed({"--extend-spectra", "zero"}), Contains("outside=1"));
@@ -254,6 +255,11 @@ TEST_CASE_METHOD(Desk, "the option --dry-run prints the plan and writes nothing"
     CHECK_FALSE(std::filesystem::exists(directory.path() / "model"));
     CHECK_THAT(calcmysky({"good.atmo", "--dry-run", "--skip", "moments"}).output,
                Contains("moments                     skipped"));
+    CHECK(calcmysky({"good.atmo", "--dry-run"}).error.empty());
+    CHECK(calcmysky({"good.atmo", "--dry-run", "--tolerance", "0.01"}).error == "picked for the tolerance.\n");
+    CHECK(calcmysky({"good.atmo", "--dry-run", "--tolerance", "0.01", "--quiet"}).error.empty());
+    CHECK_THAT(calcmysky({"good.atmo", "--dry-run", "--tolerance", "0.01", "--progress", "json"}).error,
+               Contains("\"event\":\"note\""));
 }
 
 TEST_CASE_METHOD(Desk, "the option --validate needs no output directory and passes the verdict on")

@@ -44,8 +44,11 @@ atmo::Description readDescription(const std::string& path, const atmo::ParseOpti
     return description;
 }
 
-std::vector<solver::PlanItem> plan(const atmo::Description&, const solver::Options& options)
+std::vector<solver::PlanItem> plan(const atmo::Description&, const solver::Options& options, const gl::HeadlessOptions&,
+                                   solver::Progress& progress)
 {
+    if (options.qualityByTolerance)
+        progress.remark("picked for the tolerance.");
     return {{"moments", options.parts.contains(solver::Part::Moments), "", 300'000'000, 120'000, 0.8},
             {"eclipsed double scattering", false, "--no-eds-tex", 0, 0, 0}};
 }
@@ -57,7 +60,7 @@ void echo(const solver::Options& options, const gl::HeadlessOptions& openGl)
     for (const solver::Part part : options.parts)
         std::cout << " " << nameOf(part);
     std::cout << "\nradiance=" << options.radiance << " bits=" << options.texturePrecisionBits
-              << " quality=" << options.quality << " tolerance=" << options.tolerance.value_or(0)
+              << " quality=" << (options.qualityByTolerance ? "picked" : options.quality) << " tolerance=" << options.tolerance.value_or(0)
               << " memory=" << options.maxMemoryBytes;
     if (options.altitudeLayers)
         std::cout << " layers=" << options.altitudeLayers->first << ".." << options.altitudeLayers->second;

@@ -271,7 +271,7 @@ TEST_CASE("options: qualities by name, each finer than the one before")
         dust.phaseFunction.push_back(0.64 / (4 * 3.14159265358979323846 * std::pow(1.36 - 1.2 * std::cos(angle), 1.5)));
     air.species = {dust};
     int nodes = 0, degree = 0;
-    for (const char* name : {"draft", "normal", "fine", "reference"}) {
+    for (const std::string& name : qualityNames()) {
         const auto quality = qualityFor(name, air);
         INFO(name);
         CHECK(quality.bake.directNodes > nodes);
@@ -284,6 +284,6 @@ TEST_CASE("options: qualities by name, each finer than the one before")
         qualityFor("best", air);
         FAIL("was accepted");
     } catch (const UsageError& error) {
-        CHECK_THAT(error.what(), Catch::Contains("\"best\"") && Catch::Contains("draft, normal, fine or reference"));
+        CHECK_THAT(error.what(), Catch::Contains("\"best\"") && Catch::Contains("draft, normal, good, fine, finer or reference"));
     }
 }
