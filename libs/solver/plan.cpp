@@ -50,6 +50,7 @@ Needs needsOf(const atmo::Description& d, const Options& options)
     const auto has = [&](Part part) { return options.parts.count(part) > 0; };
     const bool scatters = std::any_of(d.scatterers.begin(), d.scatterers.end(), scattersLight);
     const bool lit = anyPositive(d.solarIrradiance), several = d.allScatteringOrders || d.scatteringOrders > 1;
+    n.severalOrders = several;
     const auto decide = [&](bool& flag, Part part, bool possible, const std::string& why) {
         flag = has(part) && possible;
         if (!flag)

@@ -7,6 +7,7 @@ namespace sky::solver {
 
 /// What a run has to compute, after leaving out what was not asked for and what the scene does not need.
 struct Needs {
+    bool severalOrders = false; ///< than light scattered once
     bool field = false, everyEvent = false;
     bool moments = false, transmittance = false, irradiance = false, single = false, multiple = false, eclipsed = false,
          lightPollution = false;

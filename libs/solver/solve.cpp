@@ -119,7 +119,8 @@ void solve(const atmo::Description& description, const Options& asked, gl::Headl
 
     // 2. Optics, and sunlight at every altitude.
     breath = stages.begin("sunlight", stages.work().sunlight);
-    const Quality quality = qualityFor(options.quality, medium, orderTolerance(options));
+    Quality quality = qualityFor(options.quality, medium, orderTolerance(options));
+    quality.moments.truncatePeaks = quality.moments.truncatePeaks && needs.severalOrders; // light in a peak would count as not scattered
     const physics::Profile profile(medium);
     const physics::Optics optics = physics::makeOptics(medium, quality.moments.degree, quality.moments.truncatePeaks);
     const physics::SunTable sun(profile, optics, medium.sunAngularRadius);

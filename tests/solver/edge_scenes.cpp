@@ -1,4 +1,5 @@
 // Scenes at the edges of the language: all are computed, and every number is one.
+#include "model/evaluate.hpp"
 #include "model/medium_tables.hpp"
 #include "physics/colour.hpp"
 #include "support.hpp"
@@ -190,4 +191,26 @@ TEST_CASE("edge scene: one wavelength, and a Sun without light", "[gl]")
     const Run dark(*context, night);
     checkValues(dark.model);
     CHECK(tableNames(dark.model) == std::set<std::string>{"medium", "phase-functions", "transmittance"});
+}
+
+TEST_CASE("edge scene: light scattered once knows nothing of its phase function at other angles", "[gl]")
+{
+    auto context = gl::testing::context();
+    if (!context)
+        return;
+    const auto skyOf = [&](const std::string& phase) {
+        SceneText scene;
+        scene.orders = "1";
+        scene.species = SceneText::scatterer("dust", "1e24*exp(-altitude/(8.0*km))", "vec4(" + phase + ")", "achromatic", "100 fm^2");
+        const Run run(*context, scene.parse());
+        CHECK(run.model.manifest().settings.at("moments.truncatePeaks") == "no");
+        return model::openSky(run.model, model::SkySource::Moments);
+    };
+    // Half of the light goes into a peak of a degree; the optical depth is 0.8.
+    const auto even = skyOf("0.25/PI"), peaked = skyOf("0.125/PI + 0.5*exp(-sqr(acos(clamp(dotViewSun, -1.0, 1.0))/0.02))/(PI*0.0004)");
+    for (const double sun : {0.3, 1.4, 1.6})
+        for (const double view : {0.1, 1., 1.5}) {
+            const model::SkyGeometry place{0, sun, view, 2};
+            CHECK(peaked->radiance(place).single[0] == Approx(0.5 * even->radiance(place).single[0]).epsilon(0.003)); // the tabulated peak's integral
+        }
 }
