@@ -16,6 +16,9 @@ constexpr double pi = 3.14159265358979323846;
 
 /// Nodes of a ray: about the place nearest to the city, and where the light that is seen comes from.
 constexpr int viewNearNodes = 18, fieldNearNodes = 10, fieldFarNodes = 8;
+/// Nodes about the place where a ray passes low over the edge of the disc: lower than this share of the disc's radius; m, lower still counts as that.
+constexpr int edgeNodes = 8;
+constexpr double lowOverEdge = 0.3, lowestOverEdge = 10;
 constexpr int levels = 12, anglesOfField = 22, azimuthsOfField = 6, fewestEvents = 3, mostEvents = 8;
 constexpr double tolerance = 0.02; // relative change of the closed series, where the field is bright, at which events end
 constexpr float darkLog2 = -100.F; // of a radiance that is told from darkness
@@ -59,6 +62,19 @@ void findNodes(const CityAir& air, double discRadius, const CityView& view, cons
     const double from = std::asinh(-middle / width), to = std::asinh((length - middle) / width);
     for (int k = 0; k < near; ++k)
         nodes.push_back(std::clamp(middle + width * std::sinh(from + (to - from) * (k + 0.5) / near), 0., length));
+    // Low above the edge light ends within about the altitude.
+    const double disc = discRadius * R, root = closest * closest - start + disc * disc;
+    for (const double side : {-1., 1.}) {
+        const double crossing = closest + side * std::sqrt(std::max(0., root));
+        if (root <= 0 || crossing < 0 || crossing > length)
+            continue;
+        const double altitude = std::max(lowestOverEdge, altitudeAlong(air.profile().planet(), view.altitude, view.mu, crossing));
+        if (altitude > lowOverEdge * disc)
+            continue;
+        const double spread = std::asinh(disc / altitude);
+        for (int k = 0; k < edgeNodes; ++k)
+            nodes.push_back(std::clamp(crossing + altitude * std::sinh(spread * (2 * (k + 0.5) / edgeNodes - 1)), 0., length));
+    }
     std::sort(nodes.begin(), nodes.end());
 }
 
