@@ -55,6 +55,16 @@ bool truncatesPeaks(const physics::Medium& medium, const int degree)
     return std::any_of(optics.truncation.begin(), optics.truncation.end(), [](double f) { return f > 0; });
 }
 
+/// A peak worth truncating is worth more harmonics, and directions that resolve them.
+physics::MomentSettings forPeaks(physics::MomentSettings m)
+{
+    m.degree = std::max(12, 2 * m.degree);
+    m.groundDirections += 2;
+    m.skyDirections += 4;
+    m.azimuths = std::max(m.azimuths, m.degree + 2);
+    return m;
+}
+
 /// Vertical optical depth of scattering, the mean over wavelengths.
 double scatteringDepth(const physics::Medium& medium)
 {
@@ -130,15 +140,9 @@ Quality qualityFor(const std::string& name, const physics::Medium& medium, const
 {
     const Point& point = pointNamed(name);
     Quality q{point.moments, point.bake};
-    auto& m = q.moments;
-    // A peak worth truncating is worth more harmonics, and directions that resolve them.
-    if (truncatesPeaks(medium, m.degree)) {
-        m.degree = std::max(12, 2 * m.degree);
-        m.groundDirections += 2;
-        m.skyDirections += 4;
-        m.azimuths = std::max(m.azimuths, m.degree + 2);
-    }
-    m.degree = neededDegree(medium, m.degree, tolerance);
+    if (truncatesPeaks(medium, q.moments.degree))
+        q.moments = forPeaks(q.moments);
+    q.moments.degree = neededDegree(medium, q.moments.degree, tolerance);
     return q;
 }
 
@@ -147,7 +151,7 @@ double relativeWork(const std::string& quality) { return pointNamed(quality).wor
 double sweepSize(const std::string& quality)
 {
     constexpr double moreLevels = 1.5; // which the medium asks for
-    const auto& m = pointNamed(quality).moments;
+    const auto m = forPeaks(pointNamed(quality).moments); // rather too much than too little
     return moreLevels * m.altitudes * m.suns * m.azimuths * (m.groundDirections + m.limbDirections + m.skyDirections);
 }
 

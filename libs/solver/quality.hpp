@@ -24,7 +24,7 @@ Quality qualityFor(const std::string& name, const physics::Medium& medium, doubl
 /// Time of the moments at this quality, by that of `normal`.
 double relativeWork(const std::string& quality);
 
-/// Radiances that one sweep gathers for one wavelength, as far as they can be told before the air is known.
+/// Radiances that one sweep gathers for one wavelength, as far as they can be told before the air is known: as many as haze takes.
 double sweepSize(const std::string& quality);
 
 /// Kinds of air by what makes them hard, from the easiest on.
