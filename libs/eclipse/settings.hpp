@@ -11,12 +11,12 @@ struct FieldSettings {
     double reach = 1200e3;    ///< m: how far the grid goes beyond the observer and the shadow
     double core = 50e3;       ///< m: within about this distance of both the points stand evenly, then ever wider
     int degree = 4;           ///< of the harmonics, at most mostDegree and that of the optics
-    int groundDirections = 4; ///< zenith angles from nadir to the horizon
+    int groundDirections = 6; ///< zenith angles from nadir to the horizon
     int limbDirections = 3;   ///< from the horizon to the horizontal
     int skyDirections = 6;    ///< from the horizontal to the zenith
     int azimuths = 8;         ///< over the whole turn, a multiple of 4
-    int directNodes = 20;     ///< along a ray, for sunlight
-    int nodes = 10;           ///< along a ray, for scattered light
+    int directNodes = 24;     ///< along a ray, for sunlight
+    int nodes = 12;           ///< along a ray, for scattered light
     int sunlightAltitudes = 32; ///< levels at which sunlight is known
     int sunlightRefinement = 1; ///< points of sunlight per point of the grid, along and across
     int viewNodes = 32;       ///< along a ray that is seen
