@@ -13,7 +13,7 @@ namespace {
 
 /// Most altitudes at which quotients are computed; between them cubics of logarithms, at equal shares of the axes of Sun and view.
 constexpr int solvedAltitudes = 12;
-/// Most Suns of the axis for which every one is solved; of more, every second one in the upper half of the axis, by day, is, and between
+/// Most Suns of the axis for which every one is solved; of more, every second one by day is, of the upper 5/8 of the axis, and between
 /// them stand cubics of logarithms too. Near the horizon and below it quotients change too fast.
 constexpr int solvedSuns = 16;
 /// Quotients below this are noise: totality leaves 1e-4 or more.
@@ -68,7 +68,7 @@ std::vector<bool> sunsSolved(const atmo::SizeScattering& size)
 {
     const int count = size.sunZenithAngle;
     std::vector<bool> result(static_cast<std::size_t>(count), true);
-    for (int j = count - 2; count > solvedSuns && j > count / 2; j -= 2)
+    for (int j = count - 2; count > solvedSuns && j > 3 * count / 8; j -= 2)
         result[static_cast<std::size_t>(j)] = false;
     return result;
 }

@@ -64,7 +64,7 @@ TEST_CASE("eclipse table: an odd number of views is rounded up, layers asked for
     options.altitudeLayers = {0, 0};
     CHECK(eclipseStates(description, options) == 3 * 3);
     description.eclipsedDoubleScatteringSize = {5, 7, 32, 2, 10};
-    CHECK(eclipseStates(description, options) == 3 * 25); // of the upper half every second Sun
+    CHECK(eclipseStates(description, options) == 3 * 23); // by day every second Sun
 }
 
 TEST_CASE("eclipse table: the ordinary sky times the quotient of the eclipse's field", "[gl]")
