@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "model/error_summary.hpp"
+#include "model/medium_tables.hpp"
 #include "reference_table.hpp"
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -28,13 +29,14 @@ int main(int argc, char** argv)
         const auto file = model::Model::open(directory);
         const auto sky = model::openSky(file, source == "moments" ? model::SkySource::Moments : model::SkySource::Textures);
         model::ErrorSummary sums[3];
+        const auto scale = cli::sampleScale(model::readMedium(file));
         for (const auto& row : bench::readReference(reference)) {
             const int w = bench::wavelengthIndex(row, file.manifest().wavelengthsNm);
             if (w < 0)
                 continue;
             const auto radiance = sky->radiance(row.geometry);
             const double error = (radiance.single[w] + radiance.multiple[w]) / row.radiance - 1, noise = row.noise / row.radiance;
-            sums[bench::regimeOf(row)].add(error, noise);
+            sums[bench::regimeOf(row, scale)].add(error, noise);
             if (rows)
                 std::printf("altitude %6.0f sun %5.1f view %5.1f azimuth %5.1f wavelength %7.3f error %+8.3f %% noise %6.3f %%\n",
                             row.geometry.altitude, row.geometry.sunZenithAngle / degree, row.geometry.viewZenithAngle / degree,

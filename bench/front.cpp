@@ -1,7 +1,7 @@
 // Run time of the moments against their error: every setting varied around the quality presets; and how the cost grows with the
 // work. bench/run calls it and draws the plots.
 //
-//   bench_front front FILE.atmo REFERENCE.csv [--without SPECIES] [--orders N|all] [--name NAME] [--repeats N] [--presets LIST]
+//   bench_front front FILE.atmo REFERENCE.csv [--without SPECIES] [--orders N|all] [--name NAME] [--repeats N] [--presets LIST] [--against PRESET]
 //   bench_front cost FILE.atmo [--repeats N]
 //
 // Time: from the medium to the finished moments, everything that depends on the settings. Wall clock depends on what else the
@@ -118,7 +118,7 @@ World readWorld(const gl::Api& api, const std::string& path, const std::string& 
 void printFront(const std::string& name, const World& world, const Point& point, const Field& field,
                 const std::vector<bench::ReferenceRow>& rows)
 {
-    constexpr double high = 10e3; // m
+    const auto scale = cli::sampleScale(world.medium);
     const auto sky = model::skyOfMoments(world.medium, field.optics, field.moments);
     model::ErrorSummary sums[4]; // by regime; all seen from high up
     for (const auto& row : rows) {
@@ -127,8 +127,8 @@ void printFront(const std::string& name, const World& world, const Point& point,
             continue;
         const auto radiance = sky->radiance(row.geometry);
         const double error = (radiance.single[w] + radiance.multiple[w]) / row.radiance - 1;
-        sums[bench::regimeOf(row)].add(error, row.noise / row.radiance);
-        if (row.geometry.altitude > high)
+        sums[bench::regimeOf(row, scale)].add(error, row.noise / row.radiance);
+        if (bench::isHigh(row, scale))
             sums[3].add(error, row.noise / row.radiance);
     }
     const auto& s = point.settings;
@@ -160,6 +160,22 @@ void front(const gl::Api& api, const std::string& name, const World& world, cons
         const Field field = compute(api, world.medium, world.limit(), point.settings, point.seconds);
         printFront(name, world, point, field, rows);
     }
+}
+
+/// The rows as that preset answers them, without noise: what is left is the error of coarser grids.
+std::vector<bench::ReferenceRow> answeredBy(const gl::Api& api, const std::string& preset, const World& world, std::vector<bench::ReferenceRow> rows)
+{
+    Seconds ignored;
+    const Field field = compute(api, world.medium, world.limit(), solver::qualityFor(preset, world.medium).moments, ignored);
+    const auto sky = model::skyOfMoments(world.medium, field.optics, field.moments);
+    std::erase_if(rows, [&](const auto& row) { return bench::wavelengthIndex(row, world.medium.wavelengthsNm) < 0; });
+    for (auto& row : rows) {
+        const auto radiance = sky->radiance(row.geometry);
+        const int w = bench::wavelengthIndex(row, world.medium.wavelengthsNm);
+        row.radiance = radiance.single[w] + radiance.multiple[w];
+        row.noise = 0;
+    }
+    return rows;
 }
 
 /// The medium with its wavelengths repeated or cut to `count`.
@@ -232,7 +248,7 @@ void cost(const gl::Api& api, const World& world, const int repeats)
 int main(int argc, char** argv)
 {
     CLI::App app{"Run time of the moments against their error, and cost against work."};
-    std::string description, reference, without, orders, name = "earth", presets = "draft,normal,fine!";
+    std::string description, reference, without, orders, against, name = "earth", presets = "draft,normal,fine!";
     int repeats = 2;
     auto* frontCommand = app.add_subcommand("front", "time against error around the quality presets");
     auto* costCommand = app.add_subcommand("cost", "time against work");
@@ -245,15 +261,20 @@ int main(int argc, char** argv)
     frontCommand->add_option("reference", reference, "CSV of reference radiances")->required();
     frontCommand->add_option("--name", name, "first column of the output");
     frontCommand->add_option("--presets", presets, "with their neighbours; those with a ! alone");
+    frontCommand->add_option("--against", against, "take this preset's answers in place of the table's");
     app.require_subcommand(1);
     CLI11_PARSE(app, argc, argv);
     try {
         const gl::HeadlessContext context{gl::HeadlessOptions{}};
         const World world = readWorld(context.api(), description, without, orders);
-        if (frontCommand->parsed())
-            front(context.api(), name, world, bench::readReference(reference), CLI::detail::split(presets, ','), repeats);
-        else
+        if (frontCommand->parsed()) {
+            auto rows = bench::readReference(reference);
+            if (!against.empty())
+                rows = answeredBy(context.api(), against, world, std::move(rows));
+            front(context.api(), name, world, rows, CLI::detail::split(presets, ','), repeats);
+        } else {
             cost(context.api(), world, repeats);
+        }
     } catch (const Error& error) {
         std::fprintf(stderr, "bench_front: %s\n", error.what());
         return error.inputMustChange() ? 2 : 1;

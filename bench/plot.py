@@ -8,10 +8,11 @@ from pathlib import Path
 import matplotlib
 
 matplotlib.use("Agg")
+matplotlib.rcParams["svg.fonttype"] = "none"
 import matplotlib.pyplot as plt
 
-REGIMES = {"day": "day, SZA up to 86", "sunset": "sunset, to 91", "twilight": "twilight, to 96", "high": "from 12 km and above"}
-PRESETS = {"draft": "s", "normal": "D", "fine": "^", "reference": "*"}
+REGIMES = {"day": "day", "sunset": "sunset", "twilight": "twilight", "high": "from high up"}
+PRESETS = {"draft": "s", "normal": "D", "good": "P", "fine": "^", "finer": "v", "reference": "*"}
 
 
 def read(path):
@@ -37,7 +38,7 @@ def save(figure, directory, name):
 def plot_front(directory):
     rows = read(directory / "front.csv")
     names = list(dict.fromkeys(row["name"] for row in rows))
-    figure, axes = plt.subplots(len(names), 4, figsize=(14, 3.2 * len(names)), squeeze=False, sharex=True)
+    figure, axes = plt.subplots(len(names), 4, figsize=(14, 2.8 * len(names)), squeeze=False, sharex=True, sharey="row")
     for line, name in zip(axes, names):
         for axis, (regime, title) in zip(line, REGIMES.items()):
             mine = [row for row in rows if row["name"] == name]

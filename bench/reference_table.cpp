@@ -7,7 +7,8 @@
 namespace sky::bench {
 
 namespace {
-constexpr double degree = 3.14159265358979323846 / 180;
+constexpr double pi = 3.14159265358979323846, degree = pi / 180;
+constexpr double usableNoise = 0.05;
 }
 
 std::vector<ReferenceRow> readReference(const std::string& path)
@@ -25,17 +26,22 @@ std::vector<ReferenceRow> readReference(const std::string& path)
             c.push_back(cell);
         if (c.size() < 11)
             throw FileError("\"" + path + "\": expected 11 columns in \"" + line + "\".");
-        rows.push_back({{std::stod(c[2]), std::stod(c[3]) * degree, std::stod(c[4]) * degree, std::stod(c[5]) * degree},
-                        std::stod(c[6]), std::stod(c[7]) + std::stod(c[8]), std::stod(c[9])});
+        const ReferenceRow row{{std::stod(c[2]), std::stod(c[3]) * degree, std::stod(c[4]) * degree, std::stod(c[5]) * degree},
+                               std::stod(c[6]), std::stod(c[7]) + std::stod(c[8]), std::stod(c[9])};
+        if (row.noise <= usableNoise * row.radiance)
+            rows.push_back(row);
     }
     return rows;
 }
 
-int regimeOf(const ReferenceRow& row)
+int regimeOf(const ReferenceRow& row, const cli::SampleScale& scale)
 {
-    const double sun = row.geometry.sunZenithAngle / degree;
-    return sun <= 86.01 ? 0 : sun <= 91.01 ? 1 : 2;
+    constexpr double slack = 0.1 * degree; // tables hold whole degrees, and the scale is not exactly that of the Earth
+    const double elevation = pi / 2 - row.geometry.sunZenithAngle + slack;
+    return elevation >= scale.suns[0].low ? 0 : elevation >= scale.suns[1].low ? 1 : 2;
 }
+
+bool isHigh(const ReferenceRow& row, const cli::SampleScale& scale) { return row.geometry.altitude >= 0.8 * scale.altitudes[2]; }
 
 int wavelengthIndex(const ReferenceRow& row, const std::vector<double>& wavelengthsNm)
 {
