@@ -6,8 +6,9 @@
 BIN is the directory of the programs. Each scene is computed and asked for its sky at the special places: camera on the ground, at the top of the
 atmosphere and above; Sun and view at zenith, nadir, horizon, and equal. A scene fails where a program ends with anything but 0 (or 2 with a
 sentence: the parser refused it); where a radiance is NaN, infinite or negative, from the moments or from the textures; where it jumps between two
-places however near they are; or where more light leaves than came. With --verify each model is also compared with the Monte Carlo reference.
-Prints one line a scene; what it needs to be repeated is its number and --seed. Exit code 1 if any failed. Needs NumPy.
+places however near they are; or where more light leaves than came. With --verify each model is also compared with the Monte Carlo reference:
+it fails where its error in day, sunset or twilight is above --bound by more than two standard errors of the judge. Regimes of which the judge could
+tell fewer than twelve samples to 5 % are counted as not judged. Prints one line a scene; what it needs to be repeated is its number and --seed. Exit code 1 if any failed. Needs NumPy.
 """
 import argparse
 import json
@@ -21,6 +22,10 @@ import time
 
 from judge import judge_energy, judge_methods, judge_steps, judge_values, special_places
 from scenes import scene
+
+
+REGIMES = ("day", "sunset", "twilight")
+ENOUGH = 12 # samples that say something about a regime
 
 
 def run(command, seconds):
@@ -59,27 +64,44 @@ def judge(options, model, facts, scratch):
         error, where = judge_methods(fast, reference, layers, facts)
         if not error <= options.precision:
             complaints.append(f"fast and precise answers differ by {100 * error:.1f} % at {where}")
-    if layers & showmysky.MULTIPLE_SCATTERING:
+    several = bool(layers & showmysky.MULTIPLE_SCATTERING)
+    if several and not options.moments:
         complaints += judge_textures(os.path.join(options.bin, "showmysky"), model, facts, scratch, options.seconds)
-    return complaints, error
+    return complaints, error, several
 
 
 def verify(options, model, scratch):
-    """Complaints, and (rms error, regime) against the Monte Carlo reference."""
+    """Complaints, and (regime, rms error, its uncertainty) against the Monte Carlo reference; (regime, None, None) where it could not tell."""
     report = os.path.join(scratch, "v.json")
     code, said = run([os.path.join(options.bin, "calcmysky"), "verify", model, "--seconds", str(options.verify), "--json", report, "-q"],
                      options.seconds + 6 * options.verify)
+    if code == 124: # the judge's own time, not the model's
+        return [], [(regime, None, None) for regime in REGIMES]
     if code != 0:
         return [f"verify: exit code {code}: {said[-300:]}"], []
     with open(report) as file:
-        return [], [(part["rms_error"], regime) for regime, part in json.load(file)["regimes"].items() if part["rows"] > 0]
+        regimes = json.load(file)["regimes"]
+    found = [(regime, part["rms_error"], part["rms_uncertainty"]) if part["rows"] >= ENOUGH else (regime, None, None)
+             for regime, part in regimes.items()]
+    return [f"error {100 * rms:.1f} % +- {100 * noise:.1f} % by {regime}" for regime, rms, noise in found
+            if rms is not None and rms - 2 * noise > options.bound], found
+
+
+def summary(verdicts):
+    """Errors by regime: how many scenes were judged, and how the errors spread."""
+    for regime in REGIMES:
+        mine = sorted((rms, noise, number) for number, name, rms, noise in verdicts if name == regime and rms is not None)
+        told = len(mine)
+        asked = sum(name == regime for _, name, _, _ in verdicts)
+        print(f"  {regime:8}  {told:3d} of {asked} scenes judged" + (f"; rms error: median {100 * mine[told // 2][0]:.1f} %, nine of ten below "
+              f"{100 * mine[min(told - 1, 9 * told // 10)][0]:.1f} %, largest {100 * mine[-1][0]:.1f} +- {100 * mine[-1][1]:.1f} % (scene {mine[-1][2]})" if mine else ""))
 
 
 def campaign(options):
     sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../showmysky/python"))
     os.environ.setdefault("SHOWMYSKY_LIBRARY", os.path.join(options.bin, "../lib/libShowMySky.so"))
-    failed = refused = 0
-    errors, differences = [], []
+    failed = refused = late = 0
+    verdicts, differences = [], []
     numbers = options.only or range(options.first, options.first + options.count)
     for number in numbers:
         text, facts = scene(random.Random(f"{options.seed}-{number}"))
@@ -91,10 +113,13 @@ def campaign(options):
                 file.write(text)
             start = time.time()
             command = [os.path.join(options.bin, "calcmysky"), atmo, "--out-dir", model, "--radiance", "--quality", options.quality, "-q"]
-            code, said = run(command + ([] if facts["eclipsed"] else ["--skip", "eclipsed"]), options.seconds)
+            code, said = run(command + (["--only", "moments"] if options.moments else [] if facts["eclipsed"] else ["--skip", "eclipsed"]), options.seconds)
             took = time.time() - start
             complaints, verdict = [], "ok"
-            if code == 2 and said:
+            if code == 124 and options.moments:
+                late += 1
+                verdict = f"not judged: it takes more than {options.seconds:g} s"
+            elif code == 2 and said:
                 refused += 1
                 verdict = "refused: " + said.splitlines()[0]
             elif code != 0:
@@ -102,19 +127,19 @@ def campaign(options):
             elif facts["about"].endswith("vacuum"):
                 verdict = "ok: a vacuum has no sky to ask for"
             else:
-                complaints, difference = judge(options, model, facts, scratch)
+                complaints, difference, several = judge(options, model, facts, scratch)
                 differences.append((difference, number))
-                if options.verify > 0:
+                if options.verify > 0 and several:
                     wrong, found = verify(options, model, scratch)
                     complaints += wrong
-                    errors += [(rms, number, regime) for rms, regime in found]
+                    verdicts += [(number, *what) for what in found]
             failed += bool(complaints)
             print(f"{number:4d} {took:6.1f} s  {'FAILED  ' if complaints else ''}{'; '.join(complaints[:3]) or verdict}  [{facts['about']}]", flush=True)
-    print(f"{len(numbers)} scenes, {refused} refused by the parser, {failed} failed (seed {options.seed})")
+    print(f"{len(numbers)} scenes, {refused} refused by the parser, {late} too long to judge, {failed} failed (seed {options.seed})")
     if differences:
         print(f"  fast against precise answers: {100 * max(differences)[0]:.2g} % at most, {100 * sorted(differences)[len(differences) // 2][0]:.2g} % median")
-    for rms, number, regime in sorted(errors, reverse=True)[:10]:
-        print(f"  scene {number}, {regime}: rms error {100 * rms:.1f} %")
+    if verdicts:
+        summary(verdicts)
     return 1 if failed else 0
 
 
@@ -128,6 +153,8 @@ if __name__ == "__main__":
     parser.add_argument("--seconds", type=float, default=300, help="time for each program")
     parser.add_argument("--quality", default="draft", help="of the models; the judge looks for what no quality excuses")
     parser.add_argument("--precision", type=float, default=0.1, help="largest difference between fast and precise answers")
+    parser.add_argument("--moments", action="store_true", help="judge the moments alone, and leave out scenes that take longer than --seconds")
     parser.add_argument("--verify", type=float, default=0, help="seconds of Monte Carlo for each scene")
+    parser.add_argument("--bound", type=float, default=math.inf, help="largest rms error against it")
     parser.add_argument("--keep", help="keep descriptions and models here")
     sys.exit(campaign(parser.parse_args()))
