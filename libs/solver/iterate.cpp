@@ -2,13 +2,11 @@
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "physics/harmonics.hpp"
-#include "physics/series.hpp"
+#include "solver/event_series.hpp"
 #include <algorithm>
 #include <cmath>
 
 namespace sky::solver {
-
-using physics::geometricTail;
 
 namespace {
 
@@ -17,12 +15,6 @@ constexpr int mostEvents = 200;
 
 using physics::harmonicCount;
 using physics::harmonicIndex;
-
-/// Sums over events: plain values, unlike physics::Moments with its logarithms.
-struct Sums {
-    std::vector<double> moments;    // [altitude][sun][lm][wavelength]
-    std::vector<double> irradiance; // [altitude][sun][wavelength], downward
-};
 
 class Sweeps
 {
@@ -171,34 +163,6 @@ private:
     std::optional<ScatteredGather> gather_;
 };
 
-void add(std::vector<double>& to, const std::vector<double>& what, double factor = 1)
-{
-    for (std::size_t i = 0; i < to.size(); ++i)
-        to[i] += factor * what[i];
-}
-
-/// Largest relative difference that the last event made to the estimate of the whole, over wavelengths, levels and Suns that
-/// light the air at all. `closed`: the estimate includes the tail; else it is the sum so far.
-double change(const Sums& total, const Sums& last, const Sums& before, const Sums& earlier, bool closed, int harmonics,
-              int wavelengths)
-{
-    double largest = 0, brightest = 0;
-    const std::size_t step = std::size_t(harmonics) * wavelengths;
-    for (std::size_t i = 0; i < total.moments.size(); i += step)
-        for (int w = 0; w < wavelengths; ++w)
-            brightest = std::max(brightest, total.moments[i + w]);
-    for (std::size_t i = 0; i < total.moments.size(); i += step)
-        for (int w = 0; w < wavelengths; ++w) {
-            const double sum = total.moments[i + w], added = last.moments[i + w];
-            if (sum <= 1e-7 * brightest)
-                continue;
-            const double now = closed ? sum + geometricTail(added, before.moments[i + w]) : sum;
-            const double then = closed ? sum - added + geometricTail(before.moments[i + w], earlier.moments[i + w]) : sum - added;
-            largest = std::max(largest, std::abs(now - then) / now);
-        }
-    return largest;
-}
-
 } // namespace
 
 RadiationField iterate(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid,
@@ -213,45 +177,29 @@ RadiationField iterate(const gl::Api& api, const Scene& scene, const physics::Mo
     Sweeps sweeps(api, scene, grid, settings);
     if (keepEvents)
         field.firstFromGround = sweeps.toMoments(sweeps.direct(Sweeps::First::groundOnly, [&] { breath(0); }));
+    EventSeries series(harmonics, wavelengths, limit.all);
     Sums last = sweeps.direct(Sweeps::First::all, [&] { breath(0); });
-    Sums total = last;
-    field.eventCount = 1;
-    field.irradiance.push_back(last.irradiance);
-    if (keepEvents)
-        field.perEvent.push_back(sweeps.toMoments(last));
-    const double tolerance = limit.tolerance > 0 ? limit.tolerance : limit.all ? 1e-3 : 0;
-    Sums before, earlier;
-    for (int event = 2; event <= wanted; ++event) {
-        earlier = std::move(before);
-        before = std::move(last);
-        last = sweeps.scattered(sweeps.toMoments(before), event, [&] { breath(fractionOf(event - 1)); });
-        add(total.moments, last.moments);
-        add(total.irradiance, last.irradiance);
+    const auto keep = [&](int event) {
+        series.add(last);
         field.eventCount = event;
         field.irradiance.push_back(last.irradiance);
         if (keepEvents)
             field.perEvent.push_back(sweeps.toMoments(last));
-        if (!(tolerance > 0) || (limit.all && event < 3))
+    };
+    keep(1);
+    const double tolerance = limit.tolerance > 0 ? limit.tolerance : limit.all ? 1e-3 : 0;
+    for (int event = 2; event <= wanted; ++event) {
+        last = sweeps.scattered(sweeps.toMoments(last), event, [&] { breath(fractionOf(event - 1)); });
+        keep(event);
+        if (!(tolerance > 0))
             continue;
-        field.remainder = change(total, last, before, earlier, limit.all, harmonics, wavelengths);
+        field.remainder = series.change();
         if (field.remainder < tolerance)
             break;
     }
-    if (limit.all && field.eventCount > 1) {
-        for (std::size_t i = 0; i < total.moments.size(); i += std::size_t(harmonics) * wavelengths)
-            for (int w = 0; w < wavelengths; ++w) {
-                // The tail has the shape of the last event in all harmonics.
-                const double scale = geometricTail(last.moments[i + w], before.moments[i + w]) / std::max(last.moments[i + w], 1e-300);
-                for (int lm = 0; lm < harmonics; ++lm)
-                    total.moments[i + lm * wavelengths + w] += scale * last.moments[i + lm * wavelengths + w];
-            }
-        auto& closing = field.irradiance.back(); // orders beyond the last count with it
-        for (std::size_t i = 0; i < total.irradiance.size(); ++i) {
-            const double rest = geometricTail(last.irradiance[i], before.irradiance[i]);
-            total.irradiance[i] += rest;
-            closing[i] += rest;
-        }
-    }
+    const Sums total = series.total();
+    for (std::size_t i = 0; i < total.irradiance.size(); ++i) // orders beyond the last count with it
+        field.irradiance.back()[i] += total.irradiance[i] - series.sum().irradiance[i];
     field.total = sweeps.toMoments(total);
     breath(1);
     return field;

@@ -11,7 +11,7 @@ constexpr int sweepRefinement = 2;
 /// When the iteration ends.
 struct OrderLimit {
     int orders = 4;          ///< of the light that is to be seen: the field needs one event less
-    bool all = false;        ///< go on until closing the series as a geometric one changes it by less than `tolerance`
+    bool all = false;        ///< go on until the last event changes the whole series, closed, by less than `tolerance`
     double tolerance = 0;    ///< relative; 0: exactly `orders`
 };
 

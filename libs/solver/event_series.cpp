@@ -1,0 +1,115 @@
+#include "solver/event_series.hpp"
+#include "physics/series.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace sky::solver {
+
+namespace {
+
+/// Light fainter than this part of the brightest, over levels and Suns, decides nothing.
+constexpr double faintest = 1e-7;
+/// Events from which the rest is told. More of them are more memory and no fewer events.
+constexpr std::size_t mostKept = 8;
+
+void addTo(std::vector<double>& sum, const std::vector<double>& values)
+{
+    sum.resize(values.size(), 0.);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        sum[i] += values[i];
+}
+
+} // namespace
+
+void EventSeries::add(const Sums& event)
+{
+    addTo(sum_.moments, event.moments);
+    addTo(sum_.irradiance, event.irradiance);
+    if (whole_) {
+        if (kept_.size() == mostKept)
+            kept_.erase(kept_.begin());
+        kept_.push_back(event);
+    }
+    const auto c = factors();
+    const std::size_t step = std::size_t(harmonics_) * wavelengths_, points = sum_.moments.size() / step, n = kept_.size();
+    const std::vector<double> then = std::move(means_);
+    std::vector<double> weights(n);
+    means_.clear();
+    for (std::size_t point = 0; point < points; ++point)
+        for (int w = 0; w < wavelengths_; ++w) {
+            const std::size_t at = point * step + w;
+            beyond(&Sums::moments, at, &c[w * n], weights.data());
+            means_.push_back(sum_.moments[at]);
+            for (std::size_t k = 0; k < n; ++k)
+                means_.back() += weights[k] * kept_[k].moments[at];
+        }
+    if (then.empty())
+        return;
+    const double least = faintest * *std::max_element(means_.begin(), means_.end());
+    change_ = 0;
+    for (std::size_t i = 0; i < means_.size(); ++i)
+        if (means_[i] > least)
+            change_ = std::max(change_, std::abs(means_[i] - then[i]) / means_[i]);
+}
+
+Sums EventSeries::total() const
+{
+    Sums result = sum_;
+    const auto c = factors();
+    const std::size_t n = kept_.size();
+    std::vector<double> weights(n);
+    const auto close = [&](Part part, int harmonics) {
+        for (std::size_t first = 0; first < (sum_.*part).size(); first += std::size_t(harmonics) * wavelengths_)
+            for (int w = 0; w < wavelengths_; ++w) {
+                beyond(part, first + w, &c[w * n], weights.data());
+                for (int lm = 0; lm < harmonics; ++lm)
+                    for (std::size_t k = 0; k < n; ++k)
+                        (result.*part)[first + lm * wavelengths_ + w] += weights[k] * (kept_[k].*part)[first + lm * wavelengths_ + w];
+            }
+    };
+    close(&Sums::moments, harmonics_);
+    close(&Sums::irradiance, 1);
+    return result;
+}
+
+std::vector<double> EventSeries::factors() const
+{
+    const std::size_t n = kept_.size(), step = std::size_t(harmonics_) * wavelengths_;
+    std::vector<double> result;
+    std::vector<double> relative(n);
+    for (int w = 0; w < wavelengths_ && n > 0; ++w) {
+        double brightest = 0;
+        for (std::size_t at = w; at < sum_.moments.size(); at += step)
+            brightest = std::max(brightest, sum_.moments[at]);
+        std::vector<double> products(n * n, 0.);
+        for (std::size_t at = w; at < sum_.moments.size(); at += step) {
+            if (!(sum_.moments[at] > faintest * brightest))
+                continue;
+            for (std::size_t k = 0; k < n; ++k)
+                relative[k] = kept_[k].moments[at] / sum_.moments[at];
+            for (std::size_t i = 0; i < n; ++i)
+                for (std::size_t j = 0; j < n; ++j)
+                    products[i * n + j] += relative[i] * relative[j];
+        }
+        const auto one = physics::seriesFactors(products, static_cast<int>(n));
+        result.insert(result.end(), one.begin(), one.end());
+    }
+    return result;
+}
+
+void EventSeries::beyond(const Part part, const std::size_t at, const double* const factors, double* const weights) const
+{
+    const std::size_t n = kept_.size();
+    double rest = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+        weights[k] = factors[k] - 1;
+        rest += weights[k] * (kept_[k].*part)[at];
+    }
+    if (rest >= 0)
+        return;
+    const double last = (kept_[n - 1].*part)[at], before = n > 1 ? (kept_[n - 2].*part)[at] : 0;
+    std::fill(weights, weights + n, 0.);
+    weights[n - 1] = last > 0 ? physics::geometricTail(last, before) / last : 0;
+}
+
+} // namespace sky::solver

@@ -1,0 +1,44 @@
+#pragma once
+#include <cstddef>
+#include <vector>
+
+namespace sky::solver {
+
+/// Moments of one event or of several: plain values, unlike physics::Moments with its logarithms.
+struct Sums {
+    std::vector<double> moments;    ///< [altitude][sun][lm][wavelength]
+    std::vector<double> irradiance; ///< [altitude][sun][wavelength], downward
+};
+
+/// The light of all events from that of the first ones. Each event follows from the last by the same operator, so where the
+/// series shall be whole, physics::seriesFactors close it, with one set of factors a wavelength, chosen by the relative difference of
+/// I_00 over all levels and Suns that are lit at all.
+class EventSeries
+{
+public:
+    /// \param whole  also the events that will not be computed; false: those that were added, no more
+    EventSeries(int harmonics, int wavelengths, bool whole) : harmonics_(harmonics), wavelengths_(wavelengths), whole_(whole) {}
+
+    void add(const Sums& event);
+    /// Of the events that were added.
+    const Sums& sum() const { return sum_; }
+    /// Largest relative difference that the last event made to what `total` will answer, over the same places.
+    double change() const { return change_; }
+    Sums total() const;
+
+private:
+    using Part = std::vector<double> Sums::*;
+    std::vector<double> factors() const;
+    /// Weights of the kept events whose sum lies beyond them, for the mean at `at`: factors minus one, or, where that would take light
+    /// away, a geometric tail in the shape of the last event.
+    void beyond(Part part, std::size_t at, const double* factors, double* weights) const;
+
+    int harmonics_, wavelengths_;
+    bool whole_;
+    Sums sum_;
+    std::vector<Sums> kept_;    // the last events
+    std::vector<double> means_; // [altitude][sun][wavelength], I_00 of the last answer
+    double change_ = 1;
+};
+
+} // namespace sky::solver
