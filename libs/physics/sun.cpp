@@ -11,8 +11,10 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-/// Optical depth between two altitudes of the table that need no other between them, and the most cells that one is divided into.
-constexpr double rowOpticalDepth = 0.1;
+/// Between two altitudes of the table that need no other between them: the vertical optical depth, and how far it may be from a
+/// straight line in the middle (a low Sun's optical depth is some five times as large while its light still counts). Then the most
+/// cells that an interval is divided into.
+constexpr double rowOpticalDepth = 0.1, rowCurvature = 1e-3;
 constexpr int mostParts = 16;
 
 /// Largest optical depth of the air between two altitudes, of all wavelengths.
@@ -31,7 +33,7 @@ double opticalDepthBetween(const Profile& profile, const Optics& optics, double 
 }
 
 /// Levels for a table over altitude: evenly spread for a gentle atmosphere, both sides of every jump of the profile, and more where
-/// the air is dense: between two levels optical depths are linear in sqrt(r^2 - R^2), which they are not inside a cloud.
+/// the air is dense: between two levels optical depths are taken as linear in sqrt(r^2 - R^2), which they are not in haze or a cloud.
 std::vector<double> tableAltitudes(const Profile& profile, const Optics& optics, int count)
 {
     const auto& p = profile.planet();
@@ -50,12 +52,17 @@ std::vector<double> tableAltitudes(const Profile& profile, const Optics& optics,
         }
     std::sort(all.begin(), all.end());
     all.erase(std::unique(all.begin(), all.end()), all.end());
+    const auto measure = [&](double h) { return std::sqrt(std::max(0., radiusExcessSquared(p, h))); };
+    const auto altitude = [&](double x) { return x * x / (std::sqrt(p.radius * p.radius + x * x) + p.radius); };
     std::vector<double> levels{all.front()};
     for (size_t k = 0; k + 1 < all.size(); ++k) {
-        const double depth = opticalDepthBetween(profile, optics, all[k], all[k + 1]);
-        const int parts = std::clamp(static_cast<int>(std::min(depth / rowOpticalDepth, 1e3)) + 1, 1, mostParts);
+        const double x0 = measure(all[k]), x1 = measure(all[k + 1]), middle = altitude(0.5 * (x0 + x1));
+        const double below = opticalDepthBetween(profile, optics, all[k], middle);
+        const double above = opticalDepthBetween(profile, optics, middle, all[k + 1]);
+        const double wanted = std::max((below + above) / rowOpticalDepth, std::sqrt(0.5 * std::abs(below - above) / rowCurvature));
+        const int parts = std::clamp(static_cast<int>(std::min(wanted, 1e3)) + 1, 1, mostParts);
         for (int i = 1; i < parts; ++i)
-            levels.push_back(all[k] + (all[k + 1] - all[k]) * i / parts);
+            levels.push_back(altitude(x0 + (x1 - x0) * i / parts));
         levels.push_back(all[k + 1]);
     }
     return levels;

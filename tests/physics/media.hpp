@@ -47,4 +47,13 @@ inline physics::Medium exponentialAir(double opticalDepth, double groundAlbedo =
     return medium;
 }
 
+/// Haze alone: exp(-h / 1 km) to 20 km over an Earth: a profile without a node inside. Isotropic.
+inline physics::Medium haze(double opticalDepth)
+{
+    auto medium = withDensity(layer(1, 1, 0, isotropicPhase, 6.371e6), {0, 20e3}, {1, std::exp(-20.)});
+    medium.sunAngularRadius = 0.00465;
+    medium.species[0].extinctionCrossSection = {opticalDepth / 1e3};
+    return medium;
+}
+
 } // namespace sky::test

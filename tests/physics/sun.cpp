@@ -77,6 +77,16 @@ TEST_CASE("direct sunlight: the table against the mean over the disc, through su
     }
 }
 
+TEST_CASE("direct sunlight: in haze, between the levels of the table")
+{
+    const Air air(sky::test::haze(1.25));
+    for (const double h : {15., 60., 120., 230., 480., 800., 1300., 2500.})
+        for (const double e : {0.2, 0.37, 0.8, 1.4}) {
+            INFO("h " << h << " elevation " << e);
+            CHECK(air.tabulated(h, e, 0) == Approx(air.brute(h, e, 0)).epsilon(0.006));
+        }
+}
+
 TEST_CASE("direct sunlight: none before the first edge, the whole disc after the last, never more than came in")
 {
     const Air& air = earth();
