@@ -47,17 +47,19 @@ MomentGrid::MomentGrid(const Profile& profile, const std::vector<double>& larges
             beta += n[s] * largestExtinction[s];
         return beta;
     };
-    for (size_t k = 0; k + 1 < shells.size(); ++k) {
-        const double thickness = shells[k + 1] - shells[k];
+    // Shells may be scale heights thick.
+    const auto depthInShell = [&](int k, double altitude) {
+        const double thickness = altitude - shells[k];
         double mean = 0;
         for (int q = 0; q < 8; ++q)
-            mean += extinctionAt(static_cast<int>(k), shells[k] + thickness * (q + 0.5) / 8) / 8;
-        depth[k + 1] = depth[k] + mean * thickness;
-    }
+            mean += extinctionAt(k, shells[k] + thickness * (q + 0.5) / 8) / 8;
+        return mean * thickness;
+    };
+    for (size_t k = 0; k + 1 < shells.size(); ++k)
+        depth[k + 1] = depth[k] + depthInShell(static_cast<int>(k), shells[k + 1]);
     const auto depthAt = [&](double altitude) {
         const int k = profile.intervalAt(altitude);
-        const double x = (altitude - shells[k]) / (shells[k + 1] - shells[k]);
-        return depth[k] + x * (depth[k + 1] - depth[k]);
+        return depth[k] + depthInShell(k, altitude);
     };
     for (size_t k = 1; k + 1 < shells.size(); ++k) {
         const double below = extinctionAt(static_cast<int>(k) - 1, shells[k]), above = extinctionAt(static_cast<int>(k), shells[k]);
@@ -129,9 +131,9 @@ Stencil MomentGrid::altitudeStencil(const double altitude) const
     const int k = std::clamp(static_cast<int>(std::upper_bound(measure_.begin(), measure_.end(), x) - measure_.begin()) - 1, 0,
                              n - 2);
     const double gap = measure_[k + 1] - measure_[k], t = std::clamp((x - measure_[k]) / gap, 0., 1.);
-    // Hermite basis; the slope at a level is that of the parabola through it and its neighbours, one-sided at the ends. Also where
-    // the neighbour is much nearer than the interval is wide, at a layer's edge: the field bends there, and a slope taken from so
-    // short a step would be thrown far.
+    // Hermite basis; the slope at a level is that of the parabola through it and its neighbours, at the ground through the next two
+    // (in haze the field is even in the measure there). A chord takes its place at the top, and where the neighbour is much nearer than
+    // the interval is wide, at a layer's edge: the field bends there, and a slope taken from so short a step would be thrown far.
     const double h10 = t * (1 - t) * (1 - t) * gap, h11 = -t * t * (1 - t) * gap, h01 = t * t * (3 - 2 * t);
     Stencil stencil{{std::max(k - 1, 0), k, k + 1, std::min(k + 2, n - 1)}, {0, 1 - h01, h01, 0}};
     if (k > 0 && measure_[k] - measure_[k - 1] > unevenness * gap) {
@@ -139,6 +141,11 @@ Stencil MomentGrid::altitudeStencil(const double altitude) const
         stencil.weight[0] += h10 * -gap / (before * sum);
         stencil.weight[1] += h10 * (gap - before) / (before * gap);
         stencil.weight[2] += h10 * before / (gap * sum);
+    } else if (k == 0 && n > 2 && measure_[2] - measure_[1] > unevenness * gap) {
+        const double after = measure_[2] - measure_[1], sum = gap + after;
+        stencil.weight[1] += h10 * -(gap + sum) / (gap * sum);
+        stencil.weight[2] += h10 * sum / (gap * after);
+        stencil.weight[3] += h10 * -gap / (after * sum);
     } else {
         stencil.weight[1] -= h10 / gap;
         stencil.weight[2] += h10 / gap;

@@ -142,6 +142,30 @@ TEST_CASE("grid of the moments: levels at the edges of a cloud and inside it, in
     CHECK(widest * 10 / 1000 <= 0.5 + 1e-3); // optical depth between levels: the bound of the grid
 }
 
+TEST_CASE("grid of the moments: levels follow haze whose profile has no nodes of its own")
+{
+    const Profile profile(sky::test::haze(1.25));
+    const MomentGrid grid(profile, {1.25e-3}, 8, 16);
+    const auto& h = grid.altitudes();
+    const auto depthBetween = [&](std::size_t k) { return 1.25 * (std::exp(-h[k] / 1e3) - std::exp(-h[k + 1] / 1e3)); };
+    for (std::size_t k = 0; k + 1 < h.size(); ++k)
+        CHECK(depthBetween(k) < 0.5);
+    CHECK(depthBetween(0) < 0.25);
+}
+
+TEST_CASE("stencils over altitude: at the ground a field even in the measure has no slope")
+{
+    const Profile profile(sky::test::haze(1.25));
+    const MomentGrid grid(profile, {1.25e-3}, 8, 16);
+    const auto& h = grid.altitudes();
+    // Linear in altitude, to R: a parabola of the measure.
+    const Stencil s = grid.altitudeStencil(0.1 * h[1]);
+    double value = 0;
+    for (int i = 0; i < 4; ++i)
+        value += s.weight[i] * (h[s.index[i]] + h[s.index[i]] * h[s.index[i]] / (2 * 6.371e6));
+    CHECK(value == Approx(0.1 * h[1]).margin(0.08 * h[1]));
+}
+
 TEST_CASE("grid of the moments: the lowest Sun leaves all air in the dark")
 {
     const auto medium = sky::test::exponentialAir(1);
