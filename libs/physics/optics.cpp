@@ -11,6 +11,20 @@ namespace {
 /// the optical depths alone is the more accurate at a low degree.
 constexpr double truncationMatters = 0.005;
 
+/// The share f of a phase function that is taken as not scattered at all. Scaling with f replaces every Legendre moment above the degree
+/// by f: the best is their mean, weighted with the light that meets them, (2l + 1) |lambda_l|^3 (the power of 3 by measurement, docs/method).
+/// Where moments die out fast it is little less than the first of them; a slow tail, like that of an aureole, needs much less.
+double peakShare(const std::vector<double>& moments, const int degree)
+{
+    double sum = 0, weights = 0;
+    for (int l = degree + 1; l < static_cast<int>(moments.size()); ++l) {
+        const double weight = (2 * l + 1) * std::pow(std::abs(moments[l]), 3);
+        sum += weight * moments[l];
+        weights += weight;
+    }
+    return weights > 0 ? std::clamp(sum / weights, 0., 0.999) : 0;
+}
+
 } // namespace
 
 double verticalColumn(const Medium& medium, const Species& species)
@@ -43,12 +57,12 @@ Optics makeOptics(const Medium& medium, const int degree, const bool truncate)
             if (sigmaScattering > 0) {
                 scatters = true;
                 if (w == 0 || !species.achromatic || moments.empty())
-                    moments = phaseMoments(medium, species, w, degree + 1);
+                    moments = phaseMoments(medium, species, w, 5 * (degree + 1));
             } else {
-                moments.assign(degree + 2, 0);
+                moments.assign(5 * (degree + 1) + 1, 0);
             }
-            const double share = std::clamp(moments[degree + 1], 0., 0.999);
-            const double f = truncate && share * sigmaScattering * particles > truncationMatters ? share : 0;
+            const bool matters = std::clamp(moments[degree + 1], 0., 0.999) * sigmaScattering * particles > truncationMatters;
+            const double f = truncate && matters ? peakShare(moments, degree) : 0;
             optics.truncation[s * wavelengths + w] = f;
             optics.extinction[s * wavelengths + w] = sigma - f * sigmaScattering;
             optics.scattering[s * wavelengths + w] = (1 - f) * sigmaScattering;
