@@ -30,6 +30,9 @@ public:
         return from_ + length_ * (stretch_ > 0 ? scale_ * std::sinh(stretch_ * x) : x);
     }
 
+    /// Length of the last cell in lengths of an even one, about; 0 or less than 1 where all are even or nearly so.
+    double growth() const { return stretch_; }
+
 private:
     double from_, length_;
     int count_;

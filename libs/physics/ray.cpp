@@ -1,6 +1,7 @@
 #include "physics/ray.hpp"
 #include "physics/cells.hpp"
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -83,8 +84,13 @@ void RayTracer::walk(const double h, const double mu, const bool hitsGround, con
             const double bySteepness = profile_.steepness(k) * std::abs(h1 - h0) / (0.5 * cellScale_);
             const double byLength = (s1 - s0) / (length * 0.05 * cellScale_);
             const double byDepth = std::min(depth / cellDepth, mostByDepth);
-            const int cells = std::clamp(static_cast<int>(std::ceil(std::max({bySteepness, byLength, byDepth}))), 1, 256);
-            const CellDivision division(s0, s1, cells, depth, cellDepth);
+            constexpr double mostCells = 256;
+            int cells = static_cast<int>(std::clamp(std::ceil(std::max({bySteepness, byLength, byDepth})), 1., mostCells));
+            CellDivision division(s0, s1, cells, std::max(depth, near), cellDepth);
+            if (near > depth && division.growth() > 1) { // air that thins out: its far part keeps cells no longer than even ones
+                cells = static_cast<int>(std::min(cells * division.growth(), mostCells));
+                division = CellDivision(s0, s1, cells, near, cellDepth);
+            }
             for (int c = 1; c <= cells; ++c) {
                 const double a = bounds_.back(), b = c == cells ? s1 : division.end(c);
                 const double offset = 0.5 * (b - a) / std::sqrt(3.), middle = 0.5 * (a + b);
@@ -158,7 +164,7 @@ SeenColumns RayTracer::seen(const double altitude, const double mu, const bool h
     return result;
 }
 
-RayNodes RayTracer::trace(const double altitude, const double mu, const int count, const bool hits)
+RayNodes RayTracer::trace(const double altitude, const double mu, const int count, const bool hits, const NodesFor nodesFor)
 {
     walk(altitude, mu, hits);
     const auto& p = profile_.planet();
@@ -201,14 +207,15 @@ RayNodes RayTracer::trace(const double altitude, const double mu, const int coun
         turned += std::abs(spread(p, altitudes_[c + 1]) - spread(p, altitudes_[c]));
     }
 
-    // Nodes at equal steps of a mixed measure: where the light comes from, altitude, length, and in thick air the vertical optical depth,
-    // with which sunlight changes: it is taken as linear between nodes.
-    const double byDimming = 0.3 * dimmed / (1 + dimmed);
+    // Nodes at equal steps of a mixed measure: where the light comes from, altitude, length (the shadow may begin anywhere), and in
+    // thick air the vertical optical depth, with which sunlight and field change: they are taken as linear between nodes.
+    const auto [ofLight, ofClimb, ofDimming] = nodesFor == NodesFor::Sunlight ? std::array{0.3, 0.2, 0.3} : std::array{0.4, 0.4, 0.6};
+    const double byDimming = ofDimming * dimmed / (1 + dimmed);
     for (int c = 0; c < cells; ++c) {
         const double light = total > 0 ? share[c] / total : 0;
         const double climb = turned > 0 ? std::abs(spread(p, altitudes_[c + 1]) - spread(p, altitudes_[c])) / turned : 0;
         const double way = (bounds_[c + 1] - bounds_[c]) / length;
-        measure[c + 1] = measure[c] + (1 - byDimming) * (0.3 * light + 0.2 * climb + 0.5 * way) + (dimmed > 0 ? byDimming * dimming[c] / dimmed : 0);
+        measure[c + 1] = measure[c] + (1 - byDimming) * (ofLight * light + ofClimb * climb + (1 - ofLight - ofClimb) * way) + (dimmed > 0 ? byDimming * dimming[c] / dimmed : 0);
     }
     std::vector<double> position(count, 0.);
     for (int k = 1, c = 0; k < count && cells > 0; ++k) {

@@ -27,6 +27,9 @@ struct RayNodes {
     std::vector<double> groundTransmittance; ///< [wavelength], 0 if the ray misses the ground
 };
 
+/// What the nodes of a ray shall resolve: sunlight with the edge of the planet's shadow, or the smoother field of scattered light.
+enum class NodesFor { Sunlight, Field };
+
 /// What air up to each point of a ray scatters towards its start: the integrals behind RayNodes' weights, for fields that choose
 /// their own nodes.
 struct SeenColumns {
@@ -56,7 +59,7 @@ public:
     /// Nodes and weights of the ray from `altitude` (0..top, m) in direction `mu`.
     ///   count       nodes, >= 2
     ///   hitsGround  whether the ray counts as hitting the ground: decided by the caller's half of a table, not by rounding
-    RayNodes trace(double altitude, double mu, int count, bool hitsGround);
+    RayNodes trace(double altitude, double mu, int count, bool hitsGround, NodesFor nodesFor = NodesFor::Sunlight);
 
     /// The same integrals, cumulated along the ray.
     SeenColumns seen(double altitude, double mu, bool hitsGround);

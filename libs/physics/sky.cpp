@@ -84,7 +84,7 @@ void SkyEvaluator::radiance(RayTracer& tracer, const Moments* const moments, con
     if (parts.single)
         singleAlong(tracer.trace(altitude, mu, parts.singleNodes, ground), muSun, nu, parts.exactPhase, result);
     if (parts.multiple && moments)
-        multipleAlong(tracer.trace(altitude, mu, parts.multipleNodes, ground), *moments, muSun, nu, result);
+        multipleAlong(tracer.trace(altitude, mu, parts.multipleNodes, ground, NodesFor::Field), *moments, muSun, nu, result);
 }
 
 } // namespace sky::physics

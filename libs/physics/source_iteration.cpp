@@ -49,7 +49,7 @@ Moments iterateSource(const Medium& medium, const Profile& profile, const Optics
         directRays.emplace_back();
         for (size_t d = 0; d < directions.back().mu.size(); ++d) {
             const double mu = directions.back().mu[d];
-            rays.back().push_back(tracer.trace(h, mu, settings.nodes, directions.back().hitsGround[d]));
+            rays.back().push_back(tracer.trace(h, mu, settings.nodes, directions.back().hitsGround[d], NodesFor::Field));
             directRays.back().push_back(tracer.trace(h, mu, settings.directNodes, directions.back().hitsGround[d]));
         }
     }

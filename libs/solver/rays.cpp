@@ -48,13 +48,14 @@ TexelBuffer::TexelBuffer(const gl::Api& api, const std::string& label, std::size
 {
 }
 
-std::vector<physics::RayNodes> traceRays(const Scene& scene, const std::vector<RayStart>& starts, int nodes)
+std::vector<physics::RayNodes> traceRays(const Scene& scene, const std::vector<RayStart>& starts, int nodes,
+                                       physics::NodesFor nodesFor)
 {
     std::vector<physics::RayNodes> rays(starts.size());
     base::parallel([&](int thread, int threads) {
         physics::RayTracer tracer(scene.profile, scene.optics);
         for (std::size_t i = thread; i < starts.size(); i += threads)
-            rays[i] = tracer.trace(starts[i].altitude, starts[i].mu, nodes, starts[i].hitsGround);
+            rays[i] = tracer.trace(starts[i].altitude, starts[i].mu, nodes, starts[i].hitsGround, nodesFor);
     });
     return rays;
 }
@@ -62,7 +63,7 @@ std::vector<physics::RayNodes> traceRays(const Scene& scene, const std::vector<R
 DirectRayData::DirectRayData(const Scene& scene, const std::vector<RayStart>& starts, int nodeCount, bool field)
     : count(static_cast<int>(starts.size())), nodes(nodeCount)
 {
-    const auto rays = traceRays(scene, starts, nodeCount);
+    const auto rays = traceRays(scene, starts, nodeCount, physics::NodesFor::Sunlight);
     const int sets = scene.sets(), scatterers = scene.scatterers(), wavelengths = scene.optics.wavelengths;
     rayNodes.resize(rays.size() * (nodeCount + 1) * 8);
     weights.resize(rays.size() * nodeCount * scatterers * sets * 4);
@@ -115,7 +116,7 @@ std::vector<float> scatteredNodes(const std::vector<physics::RayNodes>& rays, in
 
 ScatteredRays::ScatteredRays(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid,
                              const std::vector<RayStart>& starts, int nodeCount)
-    : ScatteredRays(api, scene, grid, traceRays(scene, starts, nodeCount), nodeCount)
+    : ScatteredRays(api, scene, grid, traceRays(scene, starts, nodeCount, physics::NodesFor::Field), nodeCount)
 {
 }
 

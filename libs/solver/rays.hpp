@@ -36,7 +36,7 @@ struct Scene {
 };
 
 /// Traces rays on all cores.
-std::vector<physics::RayNodes> traceRays(const Scene& scene, const std::vector<RayStart>& starts, int nodes);
+std::vector<physics::RayNodes> traceRays(const Scene& scene, const std::vector<RayStart>& starts, int nodes, physics::NodesFor nodesFor);
 
 /// Rays for the light of the first event, in main memory.
 struct DirectRayData {

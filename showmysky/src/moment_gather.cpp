@@ -182,7 +182,7 @@ void MomentGather::trace(int index, physics::RayTracer& tracer) const
     }
     if (!moments_)
         return;
-    const auto multiple = tracer.trace(entry->altitude, entry->mu, multipleNodes, ray.ground);
+    const auto multiple = tracer.trace(entry->altitude, entry->mu, multipleNodes, ray.ground, physics::NodesFor::Field);
     const int harmonics = physics::harmonicCount(degree_);
     ray.coefficients.assign(static_cast<std::size_t>(multipleNodes * harmonics * stride_), 0.f);
     std::vector<double> factors(static_cast<std::size_t>(harmonics));

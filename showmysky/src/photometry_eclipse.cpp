@@ -104,7 +104,8 @@ void EclipsePhotometry::radiance(const Photometer::View& view, const Moon& moon,
         }
     }
     if (multiple) {
-        auto coarse = tracer.trace(entry->altitude, entry->mu, physics::SkyEvaluator::Parts{}.multipleNodes, hitsGround);
+        auto coarse = tracer.trace(entry->altitude, entry->mu, physics::SkyEvaluator::Parts{}.multipleNodes, hitsGround,
+                                   physics::NodesFor::Field);
         for (auto& node : coarse.nodes)
             node = entry->node(node);
         std::fill(light.begin(), light.end(), 0.);

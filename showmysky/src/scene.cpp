@@ -568,7 +568,7 @@ std::vector<double> Scene::spectralRadiance(const std::array<double, 3>& directi
                          (visible[w] * direct[w] + ratios.ground[w] * diffuse[w]);
     }
     if (layers.multiple && moments_) {
-        auto coarse = tracer.trace(entry->altitude, entry->mu, parts.multipleNodes, ground);
+        auto coarse = tracer.trace(entry->altitude, entry->mu, parts.multipleNodes, ground, physics::NodesFor::Field);
         for (auto& node : coarse.nodes)
             node = entry->node(node);
         std::vector<double> multiple(wavelengths, 0.);

@@ -231,6 +231,30 @@ TEST_CASE("ray weights: a field that changes linearly along the ray is seen wher
     }
 }
 
+TEST_CASE("ray weights: sunlight in haze that thins out upwards is seen where it comes from")
+{
+    Air air(sky::test::haze(1.25));
+    const auto lit = [](double altitude) { return std::exp(-3 * 1.25 * std::exp(-altitude / 1e3)); };
+    const Planet& p = air.profile.planet();
+    for (const double mu : {1., 0.3, 0.1}) {
+        const double length = distanceToTop(p, 0, mu);
+        double depth = 0, truth = 0;
+        const int cells = 40000;
+        for (int i = 0; i < cells; ++i) {
+            const double a = length * std::pow(double(i) / cells, 2), b = length * std::pow((i + 1.) / cells, 2);
+            const double h = altitudeAlong(p, 0, mu, 0.5 * (a + b)), cell = (b - a) * 1.25e-3 * std::exp(-h / 1e3);
+            truth += std::exp(-depth) * -std::expm1(-cell) * lit(h);
+            depth += cell;
+        }
+        const RayNodes ray = air.trace(0, mu, 200);
+        double value = 0;
+        for (int k = 0; k < 200; ++k)
+            value += ray.weights[k] * lit(ray.nodes[k].altitude);
+        INFO("mu " << mu);
+        CHECK(value == Approx(truth).epsilon(0.01));
+    }
+}
+
 TEST_CASE("rays: planets from 100 km to 10 Gm, atmospheres from 1 m to 1000 km, optical depths from 0 to 1000")
 {
     for (const double radius : {1e5, 6.4e6, 1e10})

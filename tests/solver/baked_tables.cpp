@@ -91,7 +91,7 @@ struct Deviation {
             for (const double e : physics::sunElevationNodes(planet, h, vDark, suns))
                 for (int view = 0; view < views; ++view) {
                     const auto direct = twin.tracer.trace(h, mus[view], singleNodes, view < views / 2);
-                    const auto scattered = twin.tracer.trace(h, mus[view], multipleNodes, view < views / 2);
+                    const auto scattered = twin.tracer.trace(h, mus[view], multipleNodes, view < views / 2, physics::NodesFor::Field);
                     for (const double phi : azimuths) {
                         const double mu = mus[view], muSun = std::sin(e);
                         const double nu = std::clamp(

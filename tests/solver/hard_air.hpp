@@ -154,7 +154,7 @@ struct World {
             for (const double elevation : {-1., -0.1, 0.02, 0.2, 0.7, 1.4}) {
                 const double h = share * medium.topOfAtmosphere, mu = std::sin(elevation);
                 const bool ground = physics::hitsGround(profile.planet(), h, mu);
-                const auto direct = tracer.trace(h, mu, scaled(96, fineness), ground), later = tracer.trace(h, mu, scaled(24, fineness), ground);
+                const auto direct = tracer.trace(h, mu, scaled(96, fineness), ground), later = tracer.trace(h, mu, scaled(24, fineness), ground, physics::NodesFor::Field);
                 for (int s = 0; s <= 20; ++s)
                     for (const double phi : {0.5, 1.5, 2.5}) {
                         const double e = 1.5 + s / 20. * (grid.lowestElevation() - 1.5) * (2 - s / 20.);
