@@ -1,7 +1,6 @@
 #include "physics/ray.hpp"
 #include "physics/cells.hpp"
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -209,13 +208,12 @@ RayNodes RayTracer::trace(const double altitude, const double mu, const int coun
 
     // Nodes at equal steps of a mixed measure: where the light comes from, altitude, length (the shadow may begin anywhere), and in
     // thick air the vertical optical depth, with which sunlight and field change: they are taken as linear between nodes.
-    const auto [ofLight, ofClimb, ofDimming] = nodesFor == NodesFor::Sunlight ? std::array{0.3, 0.2, 0.3} : std::array{0.4, 0.4, 0.6};
-    const double byDimming = ofDimming * dimmed / (1 + dimmed);
+    const double byDimming = (nodesFor == NodesFor::Sunlight ? 0.3 : 0.8) * dimmed / (1 + dimmed);
     for (int c = 0; c < cells; ++c) {
         const double light = total > 0 ? share[c] / total : 0;
         const double climb = turned > 0 ? std::abs(spread(p, altitudes_[c + 1]) - spread(p, altitudes_[c])) / turned : 0;
         const double way = (bounds_[c + 1] - bounds_[c]) / length;
-        measure[c + 1] = measure[c] + (1 - byDimming) * (ofLight * light + ofClimb * climb + (1 - ofLight - ofClimb) * way) + (dimmed > 0 ? byDimming * dimming[c] / dimmed : 0);
+        measure[c + 1] = measure[c] + (1 - byDimming) * (0.3 * light + 0.2 * climb + 0.5 * way) + (dimmed > 0 ? byDimming * dimming[c] / dimmed : 0);
     }
     std::vector<double> position(count, 0.);
     for (int k = 1, c = 0; k < count && cells > 0; ++k) {

@@ -27,7 +27,8 @@ struct RayNodes {
     std::vector<double> groundTransmittance; ///< [wavelength], 0 if the ray misses the ground
 };
 
-/// What the nodes of a ray shall resolve: sunlight with the edge of the planet's shadow, or the smoother field of scattered light.
+/// What the nodes of a ray shall resolve: sunlight with the edge of the planet's shadow, or the field of scattered light, which is smoother but
+/// bends more where it is thick.
 enum class NodesFor { Sunlight, Field };
 
 /// What air up to each point of a ray scatters towards its start: the integrals behind RayNodes' weights, for fields that choose

@@ -29,7 +29,7 @@ const std::vector<Point>& points()
     using enum Air;
     static const std::vector<Point> list{
         {"draft", 0.5, {12, 24, 3, 4, 3, 6, 4, 48, 8, true}, {20, 8, 2}, {{Clear, 0.010}, {Dusty, 0.024}, {Dense, 0.018}, {Hazy, 0.012}, {Cloudy, 0.023}}},
-        {"normal", 1, {14, 28, 5, 7, 4, 8, 6, 64, 10, true}, {64, 10, 3}, {{Clear, 0.0056}, {Dusty, 0.0092}, {Dense, 0.0091}, {Hazy, 0.015}, {Cloudy, 0.025}}},
+        {"normal", 1, {14, 28, 5, 7, 4, 8, 6, 48, 10, true}, {64, 10, 3}, {{Clear, 0.0056}, {Dusty, 0.0092}, {Dense, 0.0091}, {Hazy, 0.015}, {Cloudy, 0.025}}},
         {"good", 2.3, {18, 36, 8, 8, 5, 10, 10, 96, 14, true}, {72, 14, 3}, {{Clear, 0.0027}, {Dusty, 0.0068}, {Dense, 0.0060}, {Hazy, 0.0098}, {Cloudy, 0.023}}},
         {"fine", 6, {24, 48, 8, 8, 6, 12, 10, 160, 20, true}, {80, 24, 4}, {{Clear, 0.0027}, {Dusty, 0.0067}, {Dense, 0.0024}, {Hazy, 0.0092}, {Cloudy, 0.022}}},
         {"finer", 16, {30, 60, 10, 10, 8, 16, 12, 176, 28, true}, {120, 32, 5}, {{Clear, 0.0026}, {Dusty, 0.0022}, {Dense, 0.0009}, {Hazy, 0.0092}, {Cloudy, 0.022}}},
@@ -55,12 +55,15 @@ bool truncatesPeaks(const physics::Medium& medium, const int degree)
     return std::any_of(optics.truncation.begin(), optics.truncation.end(), [](double f) { return f > 0; });
 }
 
-/// A peak worth truncating is worth more harmonics, and directions that resolve them.
+/// A peak worth truncating is worth more harmonics, directions that resolve them, and nodes where light dims along the ray. Levels follow
+/// the optical depth of such air by themselves: it needs fewer beforehand.
 physics::MomentSettings forPeaks(physics::MomentSettings m)
 {
-    m.degree = std::max(12, 2 * m.degree);
+    m.degree = std::max(14, 2 * m.degree);
+    m.nodes += 2;
     m.groundDirections += 2;
-    m.skyDirections += 4;
+    m.altitudes -= 2;
+    m.skyDirections += 2;
     m.azimuths = std::max(m.azimuths, m.degree + 2);
     return m;
 }
