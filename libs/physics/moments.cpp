@@ -13,9 +13,9 @@ constexpr double pi = 3.14159265358979323846;
 constexpr double unevenness = 0.25;
 
 /// Optical depth between two levels of the grid above which another level is put between them.
-constexpr double levelOpticalDepth = 0.5;
-/// So many times more of them in a layer with an edge.
-constexpr double edgeCrowding = 2;
+constexpr double levelOpticalDepth = 0.3;
+/// So many times more of them in an interval with an edge.
+constexpr double edgeCrowding = 1.25;
 
 double measureOf(const Planet& p, double altitude) { return std::sqrt(std::max(0., radiusExcessSquared(p, altitude))); }
 

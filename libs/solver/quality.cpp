@@ -55,14 +55,12 @@ bool truncatesPeaks(const physics::Medium& medium, const int degree)
     return std::any_of(optics.truncation.begin(), optics.truncation.end(), [](double f) { return f > 0; });
 }
 
-/// A peak worth truncating is worth more harmonics, directions that resolve them, and nodes where light dims along the ray. Levels follow
-/// the optical depth of such air by themselves: it needs fewer beforehand.
+/// A peak worth truncating is worth more harmonics, directions that resolve them, and nodes where light dims along the ray.
 physics::MomentSettings forPeaks(physics::MomentSettings m)
 {
     m.degree = std::max(14, 2 * m.degree);
     m.nodes += 2;
     m.groundDirections += 2;
-    m.altitudes -= 2;
     m.skyDirections += 2;
     m.azimuths = std::max(m.azimuths, m.degree + 2);
     return m;

@@ -115,7 +115,7 @@ TEST_CASE("ground glow: scenes at the edges stay finite and positive")
                 const double radiance = glow.radiance(altitude, mu);
                 CHECK(std::isfinite(radiance));
                 CHECK(radiance >= 0);
-                CHECK(radiance < 60); // even a box of white walls that glow traps no more than its air lets stay
+                CHECK(radiance < 160); // air of depth t over white ground that glows holds 1 + 3/4 t in the diffusion limit: 151 at most here
             }
     }
 }
