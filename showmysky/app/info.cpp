@@ -44,7 +44,7 @@ void print(std::ostream& out, const sky::model::Model& model)
         << "Sun's angular radius " << number(m.sunAngularRadius * 180 / 3.14159265358979323846) << " degrees\n"
         << "wavelengths          " << m.wavelengthCount() << ", " << number(m.wavelengthsNm.front()) << " to "
         << number(m.wavelengthsNm.back()) << " nm\n"
-        << "scattering orders    " << m.scatteringOrders << (m.allScatteringOrders ? ", the rest of the series added" : "") << "\n\n"
+        << "scattering orders    " << (m.allScatteringOrders ? "all" : std::to_string(m.scatteringOrders)) << "\n\n"
         << "species\n";
     for (const auto& species : m.species)
         out << "  " << species.name << (species.scatters ? ", scatters, phase function " + species.phaseFunctionType : ", absorbs only")
