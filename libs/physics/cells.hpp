@@ -30,6 +30,7 @@ public:
         return from_ + length_ * (stretch_ > 0 ? scale_ * std::sinh(stretch_ * x) : x);
     }
 
+    int count() const { return count_; }
     /// Length of the last cell in lengths of an even one, about; 0 or less than 1 where all are even or nearly so.
     double growth() const { return stretch_; }
 
@@ -37,6 +38,80 @@ private:
     double from_, length_;
     int count_;
     double stretch_ = 0, scale_ = 0;
+};
+
+/// The largest that a cell may be.
+struct CellLimits {
+    double steepness = 0.5; ///< change of the logarithm of a density
+    double length = 0.05;   ///< share of the whole ray
+    double depth = 0.5;     ///< optical; attenuation inside cells is exact
+};
+
+/// A stretch of a ray between two shells of the profile.
+struct Stretch {
+    double from, to;  ///< m, along the ray
+    double ray;       ///< m, length of the whole ray
+    double steepness; ///< change of the logarithm of the density that changes most
+    double depth;     ///< optical depth, were all as dense as in the middle
+    double near;      ///< optical depth, were all as dense as where the ray enters
+};
+
+/// Cells fine enough for density, for the angle turned, and for the first optical depths inside a thick layer.
+inline CellDivision divided(const Stretch& stretch, const CellLimits& limits)
+{
+    constexpr double mostByDepth = 64, mostCells = 256;
+    const double depth = stretch.near > mostByDepth * limits.depth ? std::max(stretch.depth, stretch.near) : stretch.depth;
+    const double bySteepness = stretch.steepness / limits.steepness;
+    const double byLength = (stretch.to - stretch.from) / (stretch.ray * limits.length);
+    const double byDepth = std::min(depth / limits.depth, mostByDepth);
+    const int cells = static_cast<int>(std::clamp(std::ceil(std::max({bySteepness, byLength, byDepth})), 1., mostCells));
+    const CellDivision division(stretch.from, stretch.to, cells, std::max(depth, stretch.near), limits.depth);
+    if (!(stretch.near > depth && division.growth() > 1))
+        return division;
+    // Air that thins out: its far part keeps cells no longer than even ones.
+    return {stretch.from, stretch.to, static_cast<int>(std::min(cells * division.growth(), mostCells)), stretch.near, limits.depth};
+}
+
+/// What the nodes of a ray shall resolve: sunlight with the edge of the planet's shadow, or the field of scattered light, which is smoother but
+/// bends more where it is thick.
+enum class NodesFor { Sunlight, Field };
+
+/// What a cell has of a ray, or what the whole ray has.
+struct NodeShares {
+    double light = 0;   ///< scattered towards the viewer, any unit
+    double climb = 0;   ///< change of the distance to the horizon, m
+    double way = 0;     ///< length, m
+    double dimming = 0; ///< vertical optical depth, mean of the wavelengths
+
+    void operator+=(const NodeShares& other)
+    {
+        light += other.light;
+        climb += other.climb;
+        way += other.way;
+        dimming += other.dimming;
+    }
+};
+
+/// The measure of which nodes stand at equal steps: where the light comes from, altitude, length (the shadow may begin anywhere), and in
+/// thick air the vertical optical depth, with which sunlight and field change: they are taken as linear between nodes.
+class NodeMeasure
+{
+public:
+    NodeMeasure(const NodeShares& whole, NodesFor nodesFor)
+    {
+        const double dimming = (nodesFor == NodesFor::Sunlight ? 0.3 : 0.8) * whole.dimming / (1 + whole.dimming);
+        const auto per = [](double share, double all) { return all > 0 ? share / all : 0; };
+        per_ = {per(0.3 * (1 - dimming), whole.light), per(0.2 * (1 - dimming), whole.climb), per(0.5 * (1 - dimming), whole.way),
+                per(dimming, whole.dimming)};
+    }
+    /// Of a cell; the whole ray has 1.
+    double of(const NodeShares& cell) const
+    {
+        return per_.light * cell.light + per_.climb * cell.climb + per_.way * cell.way + per_.dimming * cell.dimming;
+    }
+
+private:
+    NodeShares per_;
 };
 
 } // namespace sky::physics

@@ -1,5 +1,4 @@
 #include "physics/ray.hpp"
-#include "physics/cells.hpp"
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -14,8 +13,11 @@ double spread(const Planet& planet, double altitude) { return std::sqrt(std::max
 } // namespace
 
 RayTracer::RayTracer(const Profile& profile, const Optics& optics, const double cellScale)
-    : profile_(profile), optics_(optics), cellScale_(cellScale)
+    : profile_(profile), optics_(optics)
 {
+    limits_.steepness *= cellScale;
+    limits_.length *= cellScale;
+    limits_.depth *= cellScale;
     for (int s = 0; s < optics.species; ++s) {
         const auto begin = optics.extinction.begin() + s * optics.wavelengths;
         maxExtinction_.push_back(*std::max_element(begin, begin + optics.wavelengths));
@@ -70,26 +72,13 @@ void RayTracer::walk(const double h, const double mu, const bool hitsGround, con
             const double h0 = altitudeAlong(p, h, mu, s0), h1 = altitudeAlong(p, h, mu, s1);
             profile_.densities(k, 0.5 * (h0 + h1), n.data());
             profile_.densities(k, h0, m.data());
-            double depth = 0, near = 0; // of the stretch; were it all as dense as where the ray enters it
+            Stretch stretch{s0, s1, length, profile_.steepness(k) * std::abs(h1 - h0), 0, 0};
             for (int s = 0; s < species; ++s) {
-                depth += n[s] * maxExtinction_[s] * (s1 - s0);
-                near += m[s] * maxExtinction_[s] * (s1 - s0);
+                stretch.depth += n[s] * maxExtinction_[s] * (s1 - s0);
+                stretch.near += m[s] * maxExtinction_[s] * (s1 - s0);
             }
-            constexpr double mostByDepth = 64;
-            const double cellDepth = 0.5 * cellScale_;
-            if (near > mostByDepth * cellDepth)
-                depth = std::max(depth, near);
-            // Fine enough for density, for the angle turned, and for the first optical depths inside a thick layer.
-            const double bySteepness = profile_.steepness(k) * std::abs(h1 - h0) / (0.5 * cellScale_);
-            const double byLength = (s1 - s0) / (length * 0.05 * cellScale_);
-            const double byDepth = std::min(depth / cellDepth, mostByDepth);
-            constexpr double mostCells = 256;
-            int cells = static_cast<int>(std::clamp(std::ceil(std::max({bySteepness, byLength, byDepth})), 1., mostCells));
-            CellDivision division(s0, s1, cells, std::max(depth, near), cellDepth);
-            if (near > depth && division.growth() > 1) { // air that thins out: its far part keeps cells no longer than even ones
-                cells = static_cast<int>(std::min(cells * division.growth(), mostCells));
-                division = CellDivision(s0, s1, cells, near, cellDepth);
-            }
+            const CellDivision division = divided(stretch, limits_);
+            const int cells = division.count();
             for (int c = 1; c <= cells; ++c) {
                 const double a = bounds_.back(), b = c == cells ? s1 : division.end(c);
                 const double offset = 0.5 * (b - a) / std::sqrt(3.), middle = 0.5 * (a + b);
@@ -175,12 +164,11 @@ RayNodes RayTracer::trace(const double altitude, const double mu, const int coun
 
     // What each cell contributes: sum over species of sigma_sca N T (1 - exp(-tau)) / tau, the exact mean over the cell.
     std::vector<double> depth(wavelengths, 0.), seen(cells * wavelengths), measure(cells + 1, 0.);
-    std::vector<double> share(cells, 0.);
+    std::vector<NodeShares> shares(cells);
+    NodeShares whole;
     // A cell's light comes from its centre of density, shifted towards the viewer by attenuation (in lengths of the cell).
     std::vector<double> shift(cells * wavelengths);
-    double total = 0, turned = 0;
-    std::vector<double> transmittance(wavelengths, 1.), dimming(cells, 0.); // vertical optical depth, mean of the wavelengths
-    double dimmed = 0;
+    std::vector<double> transmittance(wavelengths, 1.);
     for (int c = 0; c < cells; ++c) {
         const double* column = &columns_[c * species];
         double* mean = &seen[c * wavelengths];
@@ -199,22 +187,15 @@ RayNodes RayTracer::trace(const double altitude, const double mu, const int coun
         for (const int s : optics_.scatterers)
             for (int w = 0; w < wavelengths; ++w)
                 scattered += column[s] * optics_.scattering[s * wavelengths + w] * mean[w];
-        share[c] = scattered;
-        dimming[c] = std::accumulate(tau.begin(), tau.end(), 0.) / wavelengths * std::abs(altitudes_[c + 1] - altitudes_[c]) / (bounds_[c + 1] - bounds_[c]);
-        dimmed += dimming[c];
-        total += scattered;
-        turned += std::abs(spread(p, altitudes_[c + 1]) - spread(p, altitudes_[c]));
+        const double way = bounds_[c + 1] - bounds_[c], slant = way > 0 ? std::abs(altitudes_[c + 1] - altitudes_[c]) / way : 0;
+        shares[c] = {scattered, std::abs(spread(p, altitudes_[c + 1]) - spread(p, altitudes_[c])), way,
+                     std::accumulate(tau.begin(), tau.end(), 0.) / wavelengths * slant};
+        whole += shares[c];
     }
 
-    // Nodes at equal steps of a mixed measure: where the light comes from, altitude, length (the shadow may begin anywhere), and in
-    // thick air the vertical optical depth, with which sunlight and field change: they are taken as linear between nodes.
-    const double byDimming = (nodesFor == NodesFor::Sunlight ? 0.3 : 0.8) * dimmed / (1 + dimmed);
-    for (int c = 0; c < cells; ++c) {
-        const double light = total > 0 ? share[c] / total : 0;
-        const double climb = turned > 0 ? std::abs(spread(p, altitudes_[c + 1]) - spread(p, altitudes_[c])) / turned : 0;
-        const double way = (bounds_[c + 1] - bounds_[c]) / length;
-        measure[c + 1] = measure[c] + (1 - byDimming) * (0.3 * light + 0.2 * climb + 0.5 * way) + (dimmed > 0 ? byDimming * dimming[c] / dimmed : 0);
-    }
+    const NodeMeasure nodeMeasure(whole, nodesFor);
+    for (int c = 0; c < cells; ++c)
+        measure[c + 1] = measure[c] + nodeMeasure.of(shares[c]);
     std::vector<double> position(count, 0.);
     for (int k = 1, c = 0; k < count && cells > 0; ++k) {
         const double target = measure[cells] * k / (count - 1);

@@ -1,4 +1,5 @@
 #pragma once
+#include "physics/cells.hpp"
 #include "physics/optics.hpp"
 #include "physics/profile.hpp"
 #include <limits>
@@ -26,10 +27,6 @@ struct RayNodes {
     Node ground{};                           ///< where the ray meets the ground, if it does
     std::vector<double> groundTransmittance; ///< [wavelength], 0 if the ray misses the ground
 };
-
-/// What the nodes of a ray shall resolve: sunlight with the edge of the planet's shadow, or the field of scattered light, which is smoother but
-/// bends more where it is thick.
-enum class NodesFor { Sunlight, Field };
 
 /// What air up to each point of a ray scatters towards its start: the integrals behind RayNodes' weights, for fields that choose
 /// their own nodes.
@@ -76,7 +73,7 @@ private:
 
     const Profile& profile_;
     const Optics& optics_;
-    double cellScale_;
+    CellLimits limits_;
     std::vector<double> bounds_;   // [cells + 1], distances
     std::vector<double> columns_;  // [cells][species]
     std::vector<double> centres_;  // [cells][species], centre of mass along the cell, 0..1

@@ -75,6 +75,8 @@ SunTable::SunTable(const Profile& profile, const Optics& optics, const double su
     : planet_(profile.planet()), sunRadius_(sunAngularRadius), elevations_(elevations), wavelengths_(optics.wavelengths),
       altitudes_(tableAltitudes(profile, optics, altitudeCount)), depth_(altitudes_.size() * elevations * optics.wavelengths)
 {
+    for (const double h : altitudes_)
+        measures_.push_back(std::sqrt(radiusExcessSquared(planet_, h)));
     const auto disc = gaussLegendre(6);
     const auto fillRow = [&](size_t row, RayTracer& tracer) {
         std::vector<double> columns(optics.species);
@@ -129,9 +131,8 @@ SunTable::Row SunTable::row(const double altitude) const
 {
     const size_t k = std::clamp<size_t>(std::upper_bound(altitudes_.begin(), altitudes_.end(), altitude) - altitudes_.begin(), 1,
                                         altitudes_.size() - 1) - 1;
-    const auto measure = [&](double h) { return std::sqrt(std::max(0., radiusExcessSquared(planet_, h))); };
-    const double from = measure(altitudes_[k]), to = measure(altitudes_[k + 1]);
-    return {static_cast<int>(k), std::clamp((measure(altitude) - from) / (to - from), 0., 1.)};
+    const double measure = std::sqrt(std::max(0., radiusExcessSquared(planet_, altitude)));
+    return {static_cast<int>(k), std::clamp((measure - measures_[k]) / (measures_[k + 1] - measures_[k]), 0., 1.)};
 }
 
 double SunTable::axis(const double elevation, const double horizon) const

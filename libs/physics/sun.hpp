@@ -45,7 +45,7 @@ private:
     double sunRadius_;
     int elevations_;
     int wavelengths_;
-    std::vector<double> altitudes_;
+    std::vector<double> altitudes_, measures_; // sqrt(r^2 - R^2) there
     std::vector<double> depth_;
 };
 

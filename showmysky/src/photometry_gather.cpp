@@ -122,14 +122,11 @@ void FastGather::prepare(FastScratch& scratch) const
     if (scratch.prepared == ray.version)
         return;
     scratch.prepared = ray.version;
-    const auto& altitudes = sun_.altitudes();
     scratch.sunRows.clear();
     for (const auto& node : ray.single.nodes) {
-        const auto above = std::upper_bound(altitudes.begin(), altitudes.end(), node.altitude) - altitudes.begin();
-        const auto row = std::clamp<std::ptrdiff_t>(above, 1, static_cast<std::ptrdiff_t>(altitudes.size()) - 1) - 1;
-        const double y = std::clamp((node.altitude - altitudes[row]) / (altitudes[row + 1] - altitudes[row]), 0., 1.);
+        const auto [row, y] = sun_.row(node.altitude);
         const double horizon = physics::horizonElevation(planet_, node.altitude), range = pi / 2 - horizon + sunRadius_;
-        scratch.sunRows.push_back({static_cast<int>(row), static_cast<float>(y), horizon,
+        scratch.sunRows.push_back({row, static_cast<float>(y), horizon,
                                    1 / std::asinh(range / physics::SunTable::elevationScale)});
     }
     if (!moments_)

@@ -1,5 +1,4 @@
 #include "photometry_ray.hpp"
-#include "physics/cells.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -18,15 +17,18 @@ struct CellLoop {
     const Block *extinction, *scattering;
     const float* centres; ///< [cells][species], of the density: 0..1 of the cell
     Block *seen, *shift, *transmittance;
-    float* share;
+    float *light, *depth;
 };
+
+/// Sum of the lanes.
+SKY_INLINE float total(Lanes x) { return (x[0] + x[1]) + (x[2] + x[3]) + ((x[4] + x[5]) + (x[6] + x[7])); }
 
 /// Attenuation cell by cell: the mean transmittance over each is T (1 - e^-tau) / tau.
 SKY_WIDEST_VECTORS
 void foldCells(const CellLoop& loop)
 {
     for (int c = 0; c < loop.cells; ++c)
-        loop.share[c] = 0;
+        loop.light[c] = loop.depth[c] = 0;
     for (int b = 0; b < loop.blocks; ++b) {
         Lanes transmittance = all(1);
         for (int c = 0; c < loop.cells; ++c) {
@@ -48,9 +50,8 @@ void foldCells(const CellLoop& loop)
             Lanes scattered = all(0);
             for (int i = 0; i < loop.scatterers; ++i)
                 scattered += column[loop.scatterer[i]] * loop.scattering[i * loop.blocks + b].v;
-            scattered *= seen;
-            loop.share[c] += (scattered[0] + scattered[1]) + (scattered[2] + scattered[3]) +
-                             ((scattered[4] + scattered[5]) + (scattered[6] + scattered[7]));
+            loop.light[c] += total(scattered * seen);
+            loop.depth[c] += total(tau);
         }
         loop.transmittance[b].v = transmittance;
     }
@@ -108,7 +109,7 @@ double spread(const physics::Planet& p, double h) { return std::sqrt(std::max(0.
 } // namespace
 
 RayFolder::RayFolder(const physics::Profile& profile, const physics::Optics& optics, const Effort& effort)
-    : profile_(profile), effort_(effort), species_(optics.species), blocks_(blocksFor(optics.wavelengths)),
+    : profile_(profile), effort_(effort), species_(optics.species), wavelengths_(optics.wavelengths), blocks_(blocksFor(optics.wavelengths)),
       scatterers_(optics.scatterers)
 {
     const auto& shells = profile.shells();
@@ -133,16 +134,20 @@ RayFolder::RayFolder(const physics::Profile& profile, const physics::Optics& opt
         scatterings_.insert(scatterings_.end(), row.begin(), row.end());
     }
     for (std::size_t k = 0; k < intervals; ++k) {
-        double extinction = 0;
+        double below = 0, above = 0;
         for (int s = 0; s < species_; ++s) {
             const double a = ends[2 * k * species_ + s] / largest[s], b = ends[(2 * k + 1) * species_ + s] / largest[s];
             const bool logarithmic = a > 0 && b > 0;
             const double start = logarithmic ? std::log(a) : a, end = logarithmic ? std::log(b) : b;
             segments_.push_back({start, (end - start) / (shells[k + 1] - shells[k]), logarithmic ? 1.f : 0.f});
             const auto sigma = optics.extinction.begin() + s * optics.wavelengths;
-            extinction += std::max(a, b) * largest[s] * *std::max_element(sigma, sigma + optics.wavelengths);
+            const double most = largest[s] * *std::max_element(sigma, sigma + optics.wavelengths);
+            below += a * most;
+            above += b * most;
         }
-        extinction_.push_back(extinction);
+        const bool exponential = below > 0 && above > 0;
+        extinction_.push_back({exponential ? below : std::max(below, above),
+                               exponential ? std::log(above / below) / (shells[k + 1] - shells[k]) : 0});
     }
 }
 
@@ -161,11 +166,15 @@ void RayFolder::walk(FastRay& ray) const
         to = std::min(to, length);
         if (!(to > from))
             return;
-        const double bySteepness = profile_.steepness(interval) * std::abs(height - ray.heights.back()) / effort_.cellSteepness;
-        const double byLength = (to - from) / (length * effort_.cellLength);
-        const double depth = (to - from) * extinction_[interval], byDepth = std::min(depth / effort_.cellDepth, 64.);
-        const int cells = std::clamp(static_cast<int>(std::ceil(std::max({bySteepness, byLength, byDepth}))), 1, 256);
-        const physics::CellDivision division(from, to, cells, depth, effort_.cellDepth);
+        const auto extinctionAt = [&e = extinction_[interval], bottom = shells[interval]](double at) {
+            return e.slope != 0 ? e.low * std::exp(e.slope * (at - bottom)) : e.low;
+        };
+        const double before = ray.heights.back();
+        const physics::CellDivision division = physics::divided(
+            {from, to, length, profile_.steepness(interval) * std::abs(height - before), extinctionAt(0.5 * (before + height)) * (to - from),
+             extinctionAt(before) * (to - from)},
+            effort_.cell);
+        const int cells = division.count();
         for (int c = 1; c <= cells; ++c) {
             const double s = c == cells ? to : division.end(c);
             ray.bounds.push_back(s);
@@ -224,9 +233,11 @@ void RayFolder::findColumns(FastRay& ray) const
     }
 }
 
-/// Nodes at equal steps of a mixed measure: where the light comes from, altitude, and length.
-void RayFolder::placeNodes(FastRay& ray, const int nodes, NodeSet& set) const
+void RayFolder::placeNodes(FastRay& ray, const int nodes, const physics::NodeMeasure& measure, NodeSet& set) const
 {
+    ray.measure.assign(1, 0.);
+    for (int c = 0; c < ray.cells; ++c)
+        ray.measure.push_back(ray.measure.back() + measure.of(ray.shares[c]));
     const auto& p = profile_.planet();
     const double r = p.radius + ray.altitude, length = ray.bounds.back(), whole = ray.measure[ray.cells];
     ray.position.assign(nodes, 0.);
@@ -272,32 +283,29 @@ void RayFolder::trace(const double altitude, const double mu, FastRay& ray) cons
     ray.shift.resize(static_cast<std::size_t>(ray.cells) * blocks_, Block{all(0)});
     ray.seen.resize(static_cast<std::size_t>(ray.cells) * blocks_, Block{all(0)});
     ray.transmittance.resize(blocks_, Block{all(0)});
-    ray.share.resize(ray.cells);
+    ray.light.resize(ray.cells);
+    ray.depth.resize(ray.cells);
+    ray.shares.resize(ray.cells);
     const CellLoop loop{ray.cells, species_, scatterers(), blocks_, ray.columns.data(), scatterers_.data(),
                         extinctions_.data(), scatterings_.data(), ray.centres.data(), ray.seen.data(), ray.shift.data(), ray.transmittance.data(),
-                        ray.share.data()};
+                        ray.light.data(), ray.depth.data()};
     foldCells(loop);
 
-    double total = 0, turned = 0;
-    ray.climb.resize(ray.cells);
+    physics::NodeShares whole;
     double from = spread(p, altitude);
     for (int c = 0; c < ray.cells; ++c) {
-        const double to = spread(p, ray.heights[c + 1]);
-        ray.climb[c] = std::abs(to - from);
+        const double to = spread(p, ray.heights[c + 1]), way = ray.bounds[c + 1] - ray.bounds[c];
+        const double slant = way > 0 ? std::abs(ray.heights[c + 1] - ray.heights[c]) / way : 0;
+        ray.shares[c] = {double(ray.light[c]), std::abs(to - from), way, double(ray.depth[c]) / wavelengths_ * slant};
+        whole += ray.shares[c];
         from = to;
-        turned += ray.climb[c];
-        total += double(ray.share[c]);
     }
-    ray.measure.assign(1, 0.);
-    for (int c = 0; c < ray.cells; ++c) {
-        const double light = total > 0 ? double(ray.share[c]) / total : 0, climb = turned > 0 ? ray.climb[c] / turned : 0;
-        const double way = (ray.bounds[c + 1] - ray.bounds[c]) / ray.bounds.back();
-        ray.measure.push_back(ray.measure.back() + 0.3 * light + 0.2 * climb + 0.5 * way);
-    }
-    for (const auto& [nodes, set] : {std::pair{effort_.singleNodes, &ray.single}, std::pair{effort_.multipleNodes, &ray.multiple}}) {
-        placeNodes(ray, nodes, *set);
-        foldWeights(loop, {ray.place.data(), ray.placeFrom.data(), ray.placeLength.data()}, nodes, set->weights.data());
-    }
+    const auto place = [&](int nodes, physics::NodesFor nodesFor, NodeSet& set) {
+        placeNodes(ray, nodes, physics::NodeMeasure(whole, nodesFor), set);
+        foldWeights(loop, {ray.place.data(), ray.placeFrom.data(), ray.placeLength.data()}, nodes, set.weights.data());
+    };
+    place(effort_.singleNodes, physics::NodesFor::Sunlight, ray.single);
+    place(effort_.multipleNodes, physics::NodesFor::Field, ray.multiple);
     ray.ground = ray.single.nodes.back();
     ++ray.version;
 }

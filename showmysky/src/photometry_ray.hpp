@@ -2,19 +2,18 @@
 // Rays for photometric questions: the product integration of physics/ray.hpp, in single precision and without allocations.
 
 #include "photometry_lanes.hpp"
+#include "physics/cells.hpp"
 #include "physics/optics.hpp"
 #include "physics/profile.hpp"
 #include <vector>
 
 namespace showmysky {
 
-/// How much work a question may cost. The default holds 0.1 % by day (tests/showmysky/photometry_accuracy.cpp).
+/// How much work a question may cost. The default holds 0.1 % by day, also in haze (tests/showmysky/photometry.cpp, photometry_haze.cpp).
 struct Effort {
     int singleNodes = 72;   ///< along a ray, for the direct light
     int multipleNodes = 20; ///< for the field
-    double cellSteepness = 1;   ///< largest change of ln density over a cell; attenuation inside cells is exact
-    double cellLength = 0.12;   ///< largest share of the ray
-    double cellDepth = 0.5;     ///< largest optical depth
+    sky::physics::CellLimits cell{1, 0.12, 0.5};
     double profileTolerance = 1e-3; ///< relative, of densities
 };
 
@@ -42,9 +41,10 @@ struct FastRay {
     lanes::Blocks arguments, logarithmic, densities; ///< [cells][2 points][species] in a row
     std::vector<float> columns;          ///< [cells][species], in units of RayFolder's scales
     std::vector<float> centres;          ///< [cells][species], of the density, 0..1 of the cell
-    std::vector<float> share;            ///< [cells], light scattered there
+    std::vector<float> light, depth;     ///< [cells], scattered there, and optical depth; sums over the wavelengths
     lanes::Blocks seen, shift;           ///< [cells][block], mean transmittance; how attenuation moves the centre of light
-    std::vector<double> climb, measure, position;
+    std::vector<sky::physics::NodeShares> shares; ///< [cells]
+    std::vector<double> measure, position;
     std::vector<int> place;              ///< [cells], node before the cell
     std::vector<float> placeFrom, placeLength; ///< [cells], in gaps between nodes
 };
@@ -64,7 +64,7 @@ public:
 private:
     void walk(FastRay& ray) const;
     void findColumns(FastRay& ray) const;
-    void placeNodes(FastRay& ray, int count, NodeSet& set) const;
+    void placeNodes(FastRay& ray, int count, const sky::physics::NodeMeasure& measure, NodeSet& set) const;
 
     struct Segment {
         double start, slope; ///< of the density, or of its logarithm, in the interval
@@ -72,10 +72,15 @@ private:
     };
     const sky::physics::Profile& profile_;
     Effort effort_;
-    int species_, blocks_;
+    int species_, wavelengths_, blocks_;
     std::vector<int> scatterers_;
     std::vector<Segment> segments_;   ///< [interval][species], densities in units of their largest
-    std::vector<double> extinction_;  ///< [interval], m^-1, the largest of its ends and wavelengths
+    /// Of an interval, the largest of the wavelengths: exponential between its ends, as if the air were one species; where one end has none,
+    /// that of the other.
+    struct Extinction {
+        double low, slope; ///< m^-1
+    };
+    std::vector<Extinction> extinction_; ///< [interval]
     lanes::Blocks extinctions_;       ///< [species][block], cross section times largest density
     lanes::Blocks scatterings_;       ///< [scatterer][block]
 };
