@@ -9,7 +9,7 @@ namespace {
 
 /// Light fainter than this part of the brightest, over levels and Suns, decides nothing.
 constexpr double faintest = 1e-7;
-/// Events from which the rest is told. More of them are more memory and no fewer events.
+/// Events from which the rest is told: each that is kept takes the memory of a whole field.
 constexpr std::size_t mostKept = 8;
 
 void addTo(std::vector<double>& sum, const std::vector<double>& values)
@@ -38,7 +38,7 @@ void EventSeries::add(const Sums& event)
     for (std::size_t point = 0; point < points; ++point)
         for (int w = 0; w < wavelengths_; ++w) {
             const std::size_t at = point * step + w;
-            beyond(&Sums::moments, at, &c[w * n], weights.data());
+            beyond(&Sums::moments, at, c.data() + w * n, weights.data());
             means_.push_back(sum_.moments[at]);
             for (std::size_t k = 0; k < n; ++k)
                 means_.back() += weights[k] * kept_[k].moments[at];
@@ -61,7 +61,7 @@ Sums EventSeries::total() const
     const auto close = [&](Part part, int harmonics) {
         for (std::size_t first = 0; first < (sum_.*part).size(); first += std::size_t(harmonics) * wavelengths_)
             for (int w = 0; w < wavelengths_; ++w) {
-                beyond(part, first + w, &c[w * n], weights.data());
+                beyond(part, first + w, c.data() + w * n, weights.data());
                 for (int lm = 0; lm < harmonics; ++lm)
                     for (std::size_t k = 0; k < n; ++k)
                         (result.*part)[first + lm * wavelengths_ + w] += weights[k] * (kept_[k].*part)[first + lm * wavelengths_ + w];
