@@ -11,6 +11,9 @@ namespace {
 /// the optical depths alone is the more accurate at a low degree.
 constexpr double truncationMatters = 0.005;
 
+/// The mean that becomes f reaches up to so many times the first degree that is cut.
+constexpr int truncatedReach = 5;
+
 /// The share f of a phase function that is taken as not scattered at all. Scaling with f replaces every Legendre moment above the degree
 /// by f: the best is their mean, weighted with the light that meets them, (2l + 1) |lambda_l|^3 (the power of 3 by measurement, docs/method).
 /// Where moments die out fast it is little less than the first of them; a slow tail, like that of an aureole, needs much less.
@@ -54,23 +57,25 @@ Optics makeOptics(const Medium& medium, const int degree, const bool truncate)
         for (int w = 0; w < wavelengths; ++w) {
             const double sigma = species.extinctionCrossSection[w];
             const double sigmaScattering = species.scatters() ? sigma * species.singleScatteringAlbedo[w] : 0;
+            double f = 0;
             if (sigmaScattering > 0) {
                 scatters = true;
                 if (w == 0 || !species.achromatic || moments.empty())
-                    moments = phaseMoments(medium, species, w, 5 * (degree + 1));
-            } else {
-                moments.assign(5 * (degree + 1) + 1, 0);
+                    moments = phaseMoments(medium, species, w, degree + 1);
+                const bool matters = std::clamp(moments[degree + 1], 0., 0.999) * sigmaScattering * particles > truncationMatters;
+                const int longest = truncatedReach * (degree + 1);
+                if (truncate && matters) {
+                    if (static_cast<int>(moments.size()) <= longest)
+                        moments = phaseMoments(medium, species, w, longest);
+                    f = peakShare(moments, degree);
+                }
             }
-            const bool matters = std::clamp(moments[degree + 1], 0., 0.999) * sigmaScattering * particles > truncationMatters;
-            const double f = truncate && matters ? peakShare(moments, degree) : 0;
             optics.truncation[s * wavelengths + w] = f;
             optics.extinction[s * wavelengths + w] = sigma - f * sigmaScattering;
             optics.scattering[s * wavelengths + w] = (1 - f) * sigmaScattering;
             for (int l = 0; l <= degree; ++l)
                 optics.moments[(s * (degree + 1) + l) * wavelengths + w] =
                     sigmaScattering > 0 ? (moments[l] - f) / (1 - f) : 0;
-            if (!(sigmaScattering > 0))
-                moments.clear();
         }
         if (scatters)
             optics.scatterers.push_back(s);
