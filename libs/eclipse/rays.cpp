@@ -15,8 +15,6 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-double measureOf(const physics::Planet& p, double h) { return std::sqrt(std::max(0., physics::radiusExcessSquared(p, h))); }
-
 /// Share of the column of scatterers above which air sends on too little light to know more of than that of the highest level.
 constexpr double negligibleColumn = 3e-4;
 
@@ -45,7 +43,8 @@ std::vector<double> gridAltitudes(const physics::Medium& medium, const physics::
     }
     const auto& planet = profile.planet();
     const double highest = highestLevel(medium, optics);
-    const int whole = static_cast<int>(std::ceil((count - 1) * measureOf(planet, planet.topOfAtmosphere) / measureOf(planet, highest))) + 1;
+    const double more = physics::horizonDistance(planet, planet.topOfAtmosphere) / physics::horizonDistance(planet, highest);
+    const int whole = static_cast<int>(std::ceil((count - 1) * more)) + 1;
     auto levels = physics::MomentGrid(profile, largest, whole, 2).altitudes();
     const auto last = std::lower_bound(levels.begin() + 1, levels.end() - 1, highest);
     levels.erase(last + 1, levels.end());
@@ -59,10 +58,10 @@ std::vector<double> sunlightAltitudes(const physics::Planet& planet, const Level
     for (int i = 0; i < levels.count(); ++i)
         all.push_back(levels.altitude(i));
     std::sort(all.begin(), all.end());
-    const double least = 0.2 * measureOf(planet, planet.topOfAtmosphere) / count;
+    const double least = 0.2 * physics::horizonDistance(planet, planet.topOfAtmosphere) / count;
     std::vector<double> result{0};
     for (const double h : all)
-        if (measureOf(planet, h) - measureOf(planet, result.back()) > least)
+        if (physics::horizonDistance(planet, h) - physics::horizonDistance(planet, result.back()) > least)
             result.push_back(h);
     result.back() = planet.topOfAtmosphere;
     return result;
@@ -84,12 +83,12 @@ FieldSettings checked(FieldSettings s)
 Levels::Levels(const physics::Planet& planet, std::vector<double> altitudes) : planet_(planet), altitudes_(std::move(altitudes))
 {
     for (const double h : altitudes_)
-        measure_.push_back(measureOf(planet_, h));
+        measure_.push_back(physics::horizonDistance(planet_, h));
 }
 
 Place Levels::place(const double altitude, const double distance) const
 {
-    const double x = measureOf(planet_, altitude);
+    const double x = physics::horizonDistance(planet_, altitude);
     const auto above = std::upper_bound(measure_.begin(), measure_.end(), x) - measure_.begin();
     const int k = static_cast<int>(std::clamp<std::ptrdiff_t>(above, 1, count() - 1)) - 1;
     const double low = measure_[static_cast<std::size_t>(k)], high = measure_[static_cast<std::size_t>(k) + 1];

@@ -87,8 +87,7 @@ GlowTable::GlowTable(const Model& model) : planet_{model.manifest().planetRadius
 
 std::vector<double> GlowTable::slice(const double altitude) const
 {
-    const double whole = physics::radiusExcessSquared(planet_, planet_.topOfAtmosphere);
-    const double share = std::sqrt(physics::radiusExcessSquared(planet_, std::clamp(altitude, 0., planet_.topOfAtmosphere)) / whole);
+    const double share = std::min(1., physics::horizonDistance(planet_, altitude) / physics::horizonDistance(planet_, planet_.topOfAtmosphere));
     const auto a = physics::uniformStencil(share * (layers_ - 1), layers_);
     const std::size_t columns = std::size_t(views_) * channels_;
     std::vector<double> result(columns);

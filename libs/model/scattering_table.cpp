@@ -76,8 +76,8 @@ std::vector<float> ScatteringTable::slice(const double altitude, const double su
         return std::vector<float>(columns, 0.F);
     std::vector<double> measures;
     for (const double h : table_.axes[0].nodes)
-        measures.push_back(std::sqrt(physics::radiusExcessSquared(planet, h)));
-    const auto a = stencilOn(positionAmong(measures, std::sqrt(physics::radiusExcessSquared(planet, std::max(0., altitude)))), layers_);
+        measures.push_back(physics::horizonDistance(planet, h));
+    const auto a = stencilOn(positionAmong(measures, physics::horizonDistance(planet, altitude)), layers_);
     const auto [b, beyondZenith] = suns_ < 2 ? physics::SunStencil{stencilOn(sun, suns_), false} : physics::sunStencil(sun, suns_);
 
     std::vector<float> result(columns);

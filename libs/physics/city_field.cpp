@@ -218,7 +218,7 @@ double CityField::angleAt(const int node) const
 
 void CityField::interpolate(const double altitude, const double fromCity, float* const result) const
 {
-    const double measure = std::sqrt(radiusExcessSquared(air_.profile().planet(), altitude));
+    const double measure = horizonDistance(air_.profile().planet(), altitude);
     const auto above = std::upper_bound(measures_.begin(), measures_.end(), measure) - measures_.begin();
     const auto a = std::clamp<std::ptrdiff_t>(above, 1, static_cast<std::ptrdiff_t>(measures_.size()) - 1) - 1;
     const float y = static_cast<float>(std::clamp((measure - measures_[a]) / (measures_[a + 1] - measures_[a]), 0., 1.));
@@ -269,7 +269,7 @@ CityField::CityField(const CityAir& air, const double discRadius)
     scale_ = std::max(discRadius, std::min(0.02 * farthest_, 0.2 * top / p.radius));
     altitudes_ = altitudeNodes(p, levels);
     for (const double h : altitudes_)
-        measures_.push_back(std::sqrt(radiusExcessSquared(p, h)));
+        measures_.push_back(horizonDistance(p, h));
 
     MomentSettings settings;
     settings.groundDirections = 4;

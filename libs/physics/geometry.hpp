@@ -17,6 +17,16 @@ struct Planet {
 /// r^2 - R^2 at altitude h, as a product.
 inline double radiusExcessSquared(const Planet& p, double h) { return h * (h + 2 * p.radius); }
 
+/// Distance to the geometric horizon, sqrt(r^2 - R^2): the measure of altitude in which gentle profiles and limb geometry are spread
+/// evenly. 0 below the ground.
+inline double horizonDistance(const Planet& p, double h) { return std::sqrt(std::max(0., radiusExcessSquared(p, h))); }
+
+/// The altitude whose horizon is so far away.
+inline double altitudeOfHorizon(const Planet& p, double distance)
+{
+    return distance * distance / (std::sqrt(p.radius * p.radius + distance * distance) + p.radius);
+}
+
 /// Altitude at distance s. From r'^2 - R^2 = h (h + 2R) + s^2 + 2 r mu s, divided by r' + R.
 inline double altitudeAlong(const Planet& p, double h, double mu, double s)
 {
@@ -27,13 +37,13 @@ inline double altitudeAlong(const Planet& p, double h, double mu, double s)
 /// Cosine of the zenith angle of the geometric horizon seen from altitude h >= 0; 0 on the ground, negative above.
 inline double horizonMu(const Planet& p, double h)
 {
-    return -std::sqrt(std::max(0., radiusExcessSquared(p, h))) / (p.radius + h);
+    return -horizonDistance(p, h) / (p.radius + h);
 }
 
 /// Elevation of the geometric horizon, rad, <= 0. atan2 keeps the digits that acos(mu) loses near zero.
 inline double horizonElevation(const Planet& p, double h)
 {
-    return -std::atan2(std::sqrt(std::max(0., radiusExcessSquared(p, h))), p.radius);
+    return -std::atan2(horizonDistance(p, h), p.radius);
 }
 
 /// True if the ray from altitude h meets the ground. The horizon itself misses it.

@@ -19,8 +19,6 @@ constexpr int refinement = 4;
 constexpr float opaque = 1e-7F;
 constexpr int opacityEvery = 8; // cells between two looks at that
 
-double measureOf(const Planet& planet, double altitude) { return std::sqrt(std::max(0., radiusExcessSquared(planet, altitude))); }
-
 /// A ray as all wavelengths meet it; [bound] has one more than [cell].
 struct Path {
     int cells;
@@ -104,10 +102,10 @@ GlowLight::GlowLight(const Medium& medium, const Optics& optics, const GlowMomen
     const auto& altitudes = moments.grid.altitudes();
     for (std::size_t k = 0; k + 1 < altitudes.size(); ++k)
         for (int i = 0; i < refinement; ++i) {
-            const double from = measureOf(planet_, altitudes[k]), to = measureOf(planet_, altitudes[k + 1]);
+            const double from = horizonDistance(planet_, altitudes[k]), to = horizonDistance(planet_, altitudes[k + 1]);
             measures_.push_back(from + (to - from) * i / refinement);
         }
-    measures_.push_back(measureOf(planet_, altitudes.back()));
+    measures_.push_back(horizonDistance(planet_, altitudes.back()));
 
     const int blocks = (wavelengths_ + lanes - 1) / lanes, harmonics = degree_ + 1, levels = static_cast<int>(measures_.size());
     const int scattererCount = static_cast<int>(scatterers_.size());
@@ -155,7 +153,7 @@ GlowLight::Sums GlowLight::along(const RayCells& ray) const
     path.harmonics.resize(std::size_t(bounds) * harmonics);
     const double r = planet_.radius + ray.altitude;
     for (int b = 0, k = 0; b < bounds; ++b) {
-        const double x = measureOf(planet_, ray.altitudes[b]);
+        const double x = horizonDistance(planet_, ray.altitudes[b]);
         while (k < lastLevel && measures_[k + 1] < x)
             ++k;
         while (k > 0 && measures_[k] > x)

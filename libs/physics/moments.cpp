@@ -1,5 +1,6 @@
 #include "physics/moments.hpp"
 #include "physics/harmonics.hpp"
+#include "physics/table_axes.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -17,24 +18,14 @@ constexpr double levelOpticalDepth = 0.3;
 /// So many times more of them in an interval with an edge.
 constexpr double edgeCrowding = 1.25;
 
-double measureOf(const Planet& p, double altitude) { return std::sqrt(std::max(0., radiusExcessSquared(p, altitude))); }
-
-double altitudeOf(const Planet& p, double measure)
-{
-    const double q = measure * measure;
-    return q / (std::sqrt(p.radius * p.radius + q) + p.radius);
-}
-
 } // namespace
 
 MomentGrid::MomentGrid(const Profile& profile, const std::vector<double>& largestExtinction, const int altitudeCount,
                        const int sunCount)
     : planet_(profile.planet()), sunCount_(sunCount)
 {
-    const double top = planet_.topOfAtmosphere, whole = measureOf(planet_, top);
-    std::vector<double> levels;
-    for (int i = 0; i < altitudeCount; ++i)
-        levels.push_back(i + 1 == altitudeCount ? top : altitudeOf(planet_, whole * i / (altitudeCount - 1)));
+    const double top = planet_.topOfAtmosphere;
+    std::vector<double> levels = altitudeNodes(planet_, altitudeCount);
 
     // Optical depth from the ground up, at the shells of the profile, and levels at the feet of jumps.
     const auto& shells = profile.shells();
@@ -108,7 +99,7 @@ MomentGrid::MomentGrid(const Planet planet, std::vector<double> altitudes, const
     : planet_(planet), altitudes_(std::move(altitudes)), lowest_(lowestElevation), sunCount_(sunCount)
 {
     for (const double h : altitudes_)
-        measure_.push_back(measureOf(planet_, h));
+        measure_.push_back(horizonDistance(planet_, h));
     vLowest_ = std::asinh(lowest_ / (pi / 2) * std::sinh(sinhScale)) / sinhScale;
 }
 
@@ -127,7 +118,7 @@ double MomentGrid::sunPosition(const double elevation) const
 Stencil MomentGrid::altitudeStencil(const double altitude) const
 {
     const int n = altitudeCount();
-    const double x = measureOf(planet_, altitude);
+    const double x = horizonDistance(planet_, altitude);
     const int k = std::clamp(static_cast<int>(std::upper_bound(measure_.begin(), measure_.end(), x) - measure_.begin()) - 1, 0,
                              n - 2);
     const double gap = measure_[k + 1] - measure_[k], t = std::clamp((x - measure_[k]) / gap, 0., 1.);

@@ -5,13 +5,6 @@
 
 namespace sky::physics {
 
-namespace {
-
-/// Altitude in a measure in which gentle profiles and limb geometry are spread evenly: sqrt(r^2 - R^2).
-double spread(const Planet& planet, double altitude) { return std::sqrt(std::max(0., radiusExcessSquared(planet, altitude))); }
-
-} // namespace
-
 RayTracer::RayTracer(const Profile& profile, const Optics& optics, const double cellScale)
     : profile_(profile), optics_(optics)
 {
@@ -188,7 +181,7 @@ RayNodes RayTracer::trace(const double altitude, const double mu, const int coun
             for (int w = 0; w < wavelengths; ++w)
                 scattered += column[s] * optics_.scattering[s * wavelengths + w] * mean[w];
         const double way = bounds_[c + 1] - bounds_[c], slant = way > 0 ? std::abs(altitudes_[c + 1] - altitudes_[c]) / way : 0;
-        shares[c] = {scattered, std::abs(spread(p, altitudes_[c + 1]) - spread(p, altitudes_[c])), way,
+        shares[c] = {scattered, std::abs(horizonDistance(p, altitudes_[c + 1]) - horizonDistance(p, altitudes_[c])), way,
                      std::accumulate(tau.begin(), tau.end(), 0.) / wavelengths * slant};
         whole += shares[c];
     }

@@ -1,6 +1,7 @@
 #include "physics/sun.hpp"
 #include "physics/quadrature.hpp"
 #include "physics/ray.hpp"
+#include "physics/table_axes.hpp"
 #include <algorithm>
 #include <cmath>
 #include <thread>
@@ -37,13 +38,8 @@ double opticalDepthBetween(const Profile& profile, const Optics& optics, double 
 std::vector<double> tableAltitudes(const Profile& profile, const Optics& optics, int count)
 {
     const auto& p = profile.planet();
-    const double top = p.topOfAtmosphere, q = radiusExcessSquared(p, top), narrow = 1e-5 * top;
-    std::vector<double> all{0, top};
-    for (int i = 1; i + 1 < count; ++i) {
-        const double x = double(i) / (count - 1);
-        const double square = q * x * x;
-        all.push_back(square / (std::sqrt(p.radius * p.radius + square) + p.radius));
-    }
+    const double narrow = 1e-5 * p.topOfAtmosphere;
+    std::vector<double> all = altitudeNodes(p, count);
     const auto& shells = profile.shells();
     for (size_t k = 0; k + 1 < shells.size(); ++k)
         if (shells[k + 1] - shells[k] < narrow) {
@@ -52,17 +48,15 @@ std::vector<double> tableAltitudes(const Profile& profile, const Optics& optics,
         }
     std::sort(all.begin(), all.end());
     all.erase(std::unique(all.begin(), all.end()), all.end());
-    const auto measure = [&](double h) { return std::sqrt(std::max(0., radiusExcessSquared(p, h))); };
-    const auto altitude = [&](double x) { return x * x / (std::sqrt(p.radius * p.radius + x * x) + p.radius); };
     std::vector<double> levels{all.front()};
     for (size_t k = 0; k + 1 < all.size(); ++k) {
-        const double x0 = measure(all[k]), x1 = measure(all[k + 1]), middle = altitude(0.5 * (x0 + x1));
+        const double x0 = horizonDistance(p, all[k]), x1 = horizonDistance(p, all[k + 1]), middle = altitudeOfHorizon(p, 0.5 * (x0 + x1));
         const double below = opticalDepthBetween(profile, optics, all[k], middle);
         const double above = opticalDepthBetween(profile, optics, middle, all[k + 1]);
         const double wanted = std::max((below + above) / rowOpticalDepth, std::sqrt(0.5 * std::abs(below - above) / rowCurvature));
         const int parts = std::clamp(static_cast<int>(std::min(wanted, 1e3)) + 1, 1, mostParts);
         for (int i = 1; i < parts; ++i)
-            levels.push_back(altitude(x0 + (x1 - x0) * i / parts));
+            levels.push_back(altitudeOfHorizon(p, x0 + (x1 - x0) * i / parts));
         levels.push_back(all[k + 1]);
     }
     return levels;
@@ -76,7 +70,7 @@ SunTable::SunTable(const Profile& profile, const Optics& optics, const double su
       altitudes_(tableAltitudes(profile, optics, altitudeCount)), depth_(altitudes_.size() * elevations * optics.wavelengths)
 {
     for (const double h : altitudes_)
-        measures_.push_back(std::sqrt(radiusExcessSquared(planet_, h)));
+        measures_.push_back(horizonDistance(planet_, h));
     const auto disc = gaussLegendre(6);
     const auto fillRow = [&](size_t row, RayTracer& tracer) {
         std::vector<double> columns(optics.species);
@@ -131,7 +125,7 @@ SunTable::Row SunTable::row(const double altitude) const
 {
     const size_t k = std::clamp<size_t>(std::upper_bound(altitudes_.begin(), altitudes_.end(), altitude) - altitudes_.begin(), 1,
                                         altitudes_.size() - 1) - 1;
-    const double measure = std::sqrt(std::max(0., radiusExcessSquared(planet_, altitude)));
+    const double measure = horizonDistance(planet_, altitude);
     return {static_cast<int>(k), std::clamp((measure - measures_[k]) / (measures_[k + 1] - measures_[k]), 0., 1.)};
 }
 

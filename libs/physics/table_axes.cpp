@@ -8,11 +8,9 @@ constexpr double pi = 3.14159265358979323846;
 std::vector<double> altitudeNodes(const Planet& planet, const int count)
 {
     std::vector<double> nodes;
-    const double whole = radiusExcessSquared(planet, planet.topOfAtmosphere);
-    for (int i = 0; i < count; ++i) {
-        const double x = count > 1 ? double(i) / (count - 1) : 0, square = whole * x * x;
-        nodes.push_back(square / (std::sqrt(planet.radius * planet.radius + square) + planet.radius));
-    }
+    const double whole = horizonDistance(planet, planet.topOfAtmosphere);
+    for (int i = 0; i < count; ++i)
+        nodes.push_back(altitudeOfHorizon(planet, count > 1 ? whole * i / (count - 1) : 0));
     if (count > 1)
         nodes.back() = planet.topOfAtmosphere;
     return nodes;

@@ -6,7 +6,7 @@
 
 namespace sky::physics {
 
-/// Altitudes 0 .. top, m, evenly spread in sqrt(r^2 - R^2), the distance to the horizon: fine near the ground.
+/// Altitudes 0 .. top, m, evenly spread in the distance to the horizon: fine near the ground.
 std::vector<double> altitudeNodes(const Planet& planet, int count);
 
 /// Angle from the geometric horizon, rad, 0 .. range: x = scale sinh(t asinh(range / scale)), t uniform, scale 0.05: fine at

@@ -74,7 +74,7 @@ bool EclipseSky::step()
         const auto& planet = atmosphere_.planet();
         // Nodes, and ground as far as it is seen.
         const double reach =
-            shares_.reach() + std::sqrt(physics::radiusExcessSquared(planet, scene_->bodies.cameraAltitude)) + 2e6;
+            shares_.reach() + physics::horizonDistance(planet, scene_->bodies.cameraAltitude) + 2e6;
         light_.emplace(shadow_, reach, scene_->limbDarkening ? &law_ : nullptr, scene_->weights);
         return false;
     }

@@ -103,9 +103,6 @@ void foldDensities(int steps, const Block* argument, const Block* logarithmic, B
     }
 }
 
-/// Distance to the horizon of an altitude: the measure in which gentle profiles and limb geometry are spread evenly.
-double spread(const physics::Planet& p, double h) { return std::sqrt(std::max(0., physics::radiusExcessSquared(p, h))); }
-
 } // namespace
 
 RayFolder::RayFolder(const physics::Profile& profile, const physics::Optics& optics, const Effort& effort)
@@ -292,9 +289,9 @@ void RayFolder::trace(const double altitude, const double mu, FastRay& ray) cons
     foldCells(loop);
 
     physics::NodeShares whole;
-    double from = spread(p, altitude);
+    double from = physics::horizonDistance(p, altitude);
     for (int c = 0; c < ray.cells; ++c) {
-        const double to = spread(p, ray.heights[c + 1]), way = ray.bounds[c + 1] - ray.bounds[c];
+        const double to = physics::horizonDistance(p, ray.heights[c + 1]), way = ray.bounds[c + 1] - ray.bounds[c];
         const double slant = way > 0 ? std::abs(ray.heights[c + 1] - ray.heights[c]) / way : 0;
         ray.shares[c] = {double(ray.light[c]), std::abs(to - from), way, double(ray.depth[c]) / wavelengths_ * slant};
         whole += ray.shares[c];

@@ -433,8 +433,7 @@ SceneGeometry Scene::geometry() const
     SceneGeometry result;
     result.sunDirection = directionOf(settings_.sun.azimuth, settings_.sun.zenithAngle);
     result.horizon = physics::horizonElevation(atmosphere_->planet(), settings_.altitude);
-    const double excess = physics::radiusExcessSquared(atmosphere_->planet(), settings_.altitude);
-    result.dipTangent = std::sqrt(excess) / atmosphere_->planet().radius;
+    result.dipTangent = physics::horizonDistance(atmosphere_->planet(), settings_.altitude) / atmosphere_->planet().radius;
     result.mirror = settings_.pseudoMirror;
     result.filter = settings_.textureFiltering;
     result.showSun = settings_.layers.solarDisc && settings_.layers.zeroOrder;

@@ -123,6 +123,22 @@ TEST_CASE("geometry: distance to the ground, grazing rays included")
     CHECK(tested > 500);
 }
 
+TEST_CASE("geometry: the distance to the horizon and back, to all digits")
+{
+    for (const Planet& p : planets())
+        for (const double h : altitudes(p)) {
+            INFO("R " << p.radius << " h " << h);
+            const double distance = horizonDistance(p, h);
+            if (h > 0 && h < 1e-290)
+                continue;
+            CHECK(relative(distance, squareRoot(Quad(h) * (2 * Quad(p.radius) + Quad(h)))) < 2 * epsilon);
+            const Quad square = Quad(distance) * Quad(distance), root = squareRoot(Quad(p.radius) * Quad(p.radius) + square);
+            CHECK(relative(altitudeOfHorizon(p, distance), square / (root + Quad(p.radius))) < 4 * epsilon);
+            CHECK(altitudeOfHorizon(p, distance) == Approx(h).epsilon(8 * epsilon));
+        }
+    CHECK(horizonDistance({6.4e6, 1e5}, -1) == 0);
+}
+
 TEST_CASE("geometry: altitude along a ray")
 {
     for (const Start& s : starts()) {

@@ -3,6 +3,7 @@
 #include "media.hpp"
 #include "physics/harmonics.hpp"
 #include "physics/quadrature.hpp"
+#include "physics/table_axes.hpp"
 #include <catch2/catch.hpp>
 
 using namespace sky::physics;
@@ -150,12 +151,7 @@ TEST_CASE("energy: a whole planet of conservative air and white ground returns a
     settings.azimuths = 4;
     const Medium medium = sky::test::exponentialAir(0.3, 1, sky::test::rayleighPhase);
     const Planet p{medium.planetRadius, medium.topOfAtmosphere};
-    std::vector<double> levels; // evenly spread in sqrt(r^2 - R^2)
-    for (int i = 0; i < settings.altitudes; ++i) {
-        const double q = radiusExcessSquared(p, p.topOfAtmosphere) * std::pow(i / (settings.altitudes - 1.), 2);
-        levels.push_back(i + 1 == settings.altitudes ? p.topOfAtmosphere : q / (std::sqrt(p.radius * p.radius + q) + p.radius));
-    }
-    const Solution planet(medium, settings, levels, -0.65, 12); // each event leaves less than half: 2e-4 to come
+    const Solution planet(medium, settings, altitudeNodes(p, settings.altitudes), -0.65, 12); // each event leaves less than half: 2e-4 to come
     const double R = p.radius, rTop = p.radius + p.topOfAtmosphere;
 
     // Caught: the disc of the planet, and beside it what the limb does not let through, in units of pi R^2.

@@ -16,7 +16,7 @@ const std::vector<double> unevenLevels{0, 1, 30, 800, 801, 5e3, 30e3, 120e3};
 /// Neighbouring intervals differ by less than a factor of four in sqrt(r^2 - R^2): none counts as an edge.
 const std::vector<double> gentleLevels{0, 20, 120, 500, 1200, 4e3, 20e3, 120e3};
 
-double measure(double altitude) { return std::sqrt(radiusExcessSquared(earth, altitude)); }
+double measure(double altitude) { return horizonDistance(earth, altitude); }
 
 template<typename Function>
 double through(const Stencil& stencil, Function f)
