@@ -34,6 +34,24 @@ std::string skippedWhy(const SceneText& text, const std::string& moon = {}, cons
     return {};
 }
 
+/// A draft whose tables of eclipsed and of ordinary light are spectral and share their directions: three azimuths by four views, which is
+/// what the eclipse's draft has, for two Suns.
+struct Spectral {
+    Options options = draft();
+    SceneText text = scene();
+
+    explicit Spectral(const std::string& altitudes)
+    {
+        options.parts = {Part::Moments, Part::Eclipsed, Part::Multiple};
+        options.radiance = true;
+        options.texturePrecisionBits = 24;
+        text.views = "4";
+        text.azimuths = "3";
+        text.suns = "2";
+        text.altitudes = altitudes;
+    }
+};
+
 } // namespace
 
 TEST_CASE("eclipse table: skipped with a reason where there is no eclipse, or no light of two orders")
@@ -72,17 +90,9 @@ TEST_CASE("eclipse table: the ordinary sky times the quotient of the eclipse's f
     auto context = gl::testing::context();
     if (!context)
         return;
-    Options options = draft();
-    options.parts = {Part::Moments, Part::Eclipsed, Part::Multiple};
-    options.radiance = true;
-    options.texturePrecisionBits = 24;
-    auto text = scene();
-    text.views = "4"; // as the eclipse's: texels of both tables share their directions
-    text.azimuths = "3";
-    text.suns = "2";
-    text.altitudes = "3";
-    const auto description = text.parse();
-    Run run(*context, description, options);
+    const Spectral draft("3");
+    const auto description = draft.text.parse();
+    Run run(*context, description, draft.options);
     checkValues(run.model);
     REQUIRE(run.has("eclipsed-double-scattering"));
     const auto eclipsed = run.model.readAll("eclipsed-double-scattering"), ordinary = run.model.readAll("multiple-scattering");
@@ -122,17 +132,9 @@ TEST_CASE("eclipse table: between the ground and the first altitude that is solv
     auto context = gl::testing::context();
     if (!context)
         return;
-    Options options = draft();
-    options.parts = {Part::Moments, Part::Eclipsed, Part::Multiple};
-    options.radiance = true;
-    options.texturePrecisionBits = 24;
-    options.altitudeLayers = {1, 1}; // of 24: half-way, seen from the ground there is no such air
-    auto text = scene();
-    text.views = "4";
-    text.azimuths = "3";
-    text.suns = "2";
-    text.altitudes = "24";
-    Run run(*context, text.parse(), options);
+    Spectral draft("24");
+    draft.options.altitudeLayers = {1, 1}; // of 24: half-way, seen from the ground there is no such air
+    Run run(*context, draft.text.parse(), draft.options);
     const auto eclipsed = run.model.readAll("eclipsed-double-scattering"), ordinary = run.model.readAll("multiple-scattering");
     REQUIRE(eclipsed.size() == ordinary.size());
     // The zenith Sun, [view][azimuth][wavelength], from nadir up.
