@@ -174,4 +174,31 @@ void SunTable::horizontalIrradiance(const double altitude, const double muSun, d
         result[w] *= cosine;
 }
 
+void sunOnSurface(const Profile& profile, const Optics& optics, const double sunAngularRadius, const double altitude, const double elevation,
+                  double* const result)
+{
+    std::fill(result, result + optics.wavelengths, 0.);
+    // Near the horizon light grows from limb to limb by powers of ten, smoothly; higher up it is linear over the disc.
+    const bool point = sunAngularRadius <= 0 || elevation > 0.3;
+    const int heights = point ? 1 : 8;
+    // At elevation centre + radius cos t the chord is 2 radius sin t; over the disc's area: 2 / pi sin^2 t dt.
+    const double lowest = point ? 0 : std::acos(std::clamp(-elevation / sunAngularRadius, -1., 1.));
+    const auto rule = gaussLegendre(heights, 0, lowest);
+    RayTracer tracer(profile, optics);
+    std::vector<double> columns(optics.species);
+    for (int i = 0; i < heights; ++i) {
+        const double t = rule.nodes[i], sine = std::sin(point ? elevation : elevation + sunAngularRadius * std::cos(t));
+        if (!(sine > 0))
+            continue;
+        const double weight = point ? sine : rule.weights[i] * 2 / pi * std::sin(t) * std::sin(t) * sine;
+        tracer.columns(altitude, sine, columns.data());
+        for (int w = 0; w < optics.wavelengths; ++w) {
+            double tau = 0;
+            for (int s = 0; s < optics.species; ++s)
+                tau += columns[s] * optics.extinction[s * optics.wavelengths + w];
+            result[w] += weight * std::exp(-tau);
+        }
+    }
+}
+
 } // namespace sky::physics

@@ -315,7 +315,7 @@ void bakeIrradiance(const BakeJob& job, const RadiationField* field, bool perEve
     std::vector<double> light(wavelengths);
     for (const double h : altitudes)
         for (const double e : suns(h)) {
-            job.scene.sun.horizontalIrradiance(h, std::sin(e), light.data());
+            physics::sunOnSurface(job.scene.profile, job.scene.optics, medium.sunAngularRadius, h, e, light.data());
             for (int w = 0; w < wavelengths; ++w)
                 direct.push_back(static_cast<float>(light[w] * medium.solarIrradiance[w]));
         }

@@ -17,8 +17,6 @@ namespace physics = sky::physics;
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-/// Heights on the Sun's disc: near the horizon light grows from limb to limb by powers of ten, smoothly.
-constexpr int discHeights = 8;
 
 void checkRange(const char* name, double value, double low, double high, const char* range)
 {
@@ -99,7 +97,6 @@ struct Photometer::Inside {
     void radiance(const View& view, unsigned layers, Scratch& scratch, double* result) const;
     void eclipsed(const View& view, const Moon& moon, unsigned layers, Scratch& scratch, double* result) const;
     void transmittance(const physics::Optics& optics, double altitude, double mu, Scratch& scratch, double* result) const;
-    void sunOnSurface(const physics::Optics& optics, double altitude, double sunZenithAngle, Scratch& scratch, double* result) const;
     void diffuse(double altitude, double muSun, Scratch& scratch, double* result) const;
 
     std::unique_ptr<Scratch> borrow() const
@@ -253,25 +250,6 @@ void Photometer::Inside::transmittance(const physics::Optics& optics, double alt
         for (std::size_t s = 0; s < scratch.columns.size(); ++s)
             depth += scratch.columns[s] * optics.extinction[s * wavelengths() + w];
         result[w] = std::exp(-depth);
-    }
-}
-
-/// Irradiance of a horizontal surface by the Sun per unit solar irradiance: over the disc's part above the plane. Near the horizon both the
-/// transmittance and the cosine grow from the lower limb to the upper, so the mean of their product is more than the product of their means.
-void Photometer::Inside::sunOnSurface(const physics::Optics& optics, const double altitude, const double sunZenithAngle, Scratch& scratch,
-                                      double* const result) const
-{
-    const double centre = pi / 2 - sunZenithAngle, radius = sky.medium.sunAngularRadius;
-    std::fill(result, result + wavelengths(), 0.);
-    // At elevation centre + radius cos t the chord is 2 radius sin t; over the disc's area: 2 / pi sin^2 t dt.
-    const double lowest = std::acos(std::clamp(-centre / std::max(radius, 1e-30), -1., 1.));
-    const auto heights = physics::gaussLegendre(discHeights, 0, lowest);
-    for (std::size_t i = 0; i < heights.nodes.size(); ++i) {
-        const double t = heights.nodes[i], sine = std::sin(std::max(0., centre + radius * std::cos(t)));
-        transmittance(optics, altitude, sine, scratch, scratch.spectrum.data());
-        const double weight = heights.weights[i] * 2 / pi * std::sin(t) * std::sin(t) * sine;
-        for (int w = 0; w < wavelengths(); ++w)
-            result[w] += weight * scratch.spectrum[w];
     }
 }
 
@@ -435,11 +413,14 @@ void Photometer::horizontalIrradiance(const double altitude, const double sunZen
         Inside::Borrowed scratch(*inside_);
         const int wavelengths = inside_->wavelengths();
         std::vector<double> unscattered(wavelengths);
-        inside_->sunOnSurface(sky.trueOptics ? *sky.trueOptics : sky.optics, inside, sunZenithAngle, *scratch, unscattered.data());
+        const auto sunlight = [&](const physics::Optics& optics, double* result) {
+            physics::sunOnSurface(sky.profile, optics, sky.medium.sunAngularRadius, inside, pi / 2 - sunZenithAngle, result);
+        };
+        sunlight(sky.trueOptics ? *sky.trueOptics : sky.optics, unscattered.data());
         if (diffuse) {
             inside_->diffuse(inside, std::cos(sunZenithAngle), *scratch, diffuse);
             // Truncated peaks count as sunlight inside; to others they are light of the sky.
-            inside_->sunOnSurface(sky.optics, inside, sunZenithAngle, *scratch, scratch->light.data());
+            sunlight(sky.optics, scratch->light.data());
             for (int w = 0; w < wavelengths; ++w)
                 diffuse[w] = std::max(0., diffuse[w] + scratch->light[w] - unscattered[w]) * sky.medium.solarIrradiance[w];
         }

@@ -147,6 +147,38 @@ TEST_CASE("direct sunlight on the ground: through sunrise, against the mean over
     }
 }
 
+TEST_CASE("direct sunlight on a horizontal surface: the sum over the disc, through sunset, on the ground and above")
+{
+    // Strips of even height, each with its own ray and cosine.
+    const Air& air = earth();
+    const double radius = air.medium.sunAngularRadius;
+    RayTracer tracer(air.profile, air.optics);
+    std::vector<double> columns(air.optics.species), found(4);
+    for (const double h : {0., 300., 9e3})
+        for (const double e : {-0.9 * radius, -0.5 * radius, 0., 0.5 * radius, 2 * radius, 0.05, 0.1, 0.3, 0.31, 1.2}) {
+            double expected[2] = {0, 0};
+            constexpr int strips = 2000;
+            for (int i = 0; i < strips; ++i) {
+                const double x = 2 * (i + 0.5) / strips - 1, elevation = e + radius * x;
+                if (elevation <= 0)
+                    continue;
+                tracer.columns(h, std::sin(elevation), columns.data());
+                for (const int w : {0, 2}) {
+                    double tau = 0;
+                    for (int s = 0; s < air.optics.species; ++s)
+                        tau += columns[s] * air.optics.extinction[s * air.optics.wavelengths + w];
+                    expected[w / 2] += 4 / (pi * strips) * std::sqrt(1 - x * x) * std::exp(-tau) * std::sin(elevation);
+                }
+            }
+            sunOnSurface(air.profile, air.optics, radius, h, e, found.data());
+            INFO("h " << h << " elevation " << e);
+            for (const int w : {0, 2})
+                CHECK(found[w] == Approx(expected[w / 2]).epsilon(2e-3)); // what the strips at the limbs leave
+        }
+    sunOnSurface(air.profile, air.optics, radius, 0, -1.001 * radius, found.data());
+    CHECK(found == std::vector<double>(4, 0.));
+}
+
 TEST_CASE("direct sunlight: the axis of elevations runs from the lowest Sun that shows to the zenith")
 {
     const Air& air = earth();
