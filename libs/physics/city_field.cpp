@@ -21,6 +21,7 @@ constexpr int edgeNodes = 8;
 constexpr double lowOverEdge = 0.3, lowestOverEdge = 10;
 constexpr int levels = 12, anglesOfField = 22, azimuthsOfField = 6, fewestEvents = 3, mostEvents = 8;
 constexpr double tolerance = 0.02; // relative change of the closed series, where the field is bright, at which events end
+constexpr double faintest = 1e-3;  // part of the brightest light below which that is not asked
 constexpr float darkLog2 = -100.F; // of a radiance that is told from darkness
 
 /// A point of a ray.
@@ -161,24 +162,6 @@ void toLogRatios(float* values, int harmonics, int stride)
     }
 }
 
-/// Largest relative difference that the last event made to the closed series, where there is a thousandth of the brightest light.
-double change(const std::vector<float>& total, const std::vector<float>& last, const std::vector<float>& before,
-              const std::vector<float>& earlier, size_t step, int stride)
-{
-    double largest = 0, brightest = 0;
-    for (size_t point = 0; point < total.size(); point += step)
-        for (int w = 0; w < stride; ++w)
-            brightest = std::max(brightest, double(total[point + w]));
-    for (size_t point = 0; point < total.size(); point += step)
-        for (int w = 0; w < stride; ++w) {
-            const double sum = double(total[point + w]), added = double(last[point + w]), prior = double(before[point + w]);
-            const double now = sum + geometricTail(added, prior), then = sum - added + geometricTail(prior, double(earlier[point + w]));
-            if (now > 1e-3 * brightest)
-                largest = std::max(largest, std::abs(now - then) / now);
-        }
-    return largest;
-}
-
 } // namespace
 
 CityColumns::CityColumns(RayTracer& tracer, const double altitude, const double mu, const bool hitsGround, const int count)
@@ -288,14 +271,18 @@ CityField::CityField(const CityAir& air, const double discRadius)
     const auto azimuths = gaussLegendre(azimuthsOfField, 0, 1); // phi = pi x^2: close where the city is
 
     const size_t step = size_t(harmonics_) * stride_, points = size_t(levels) * angles_;
-    std::vector<float> total(points * step, 0.F), last(total.size()), before, earlier;
-    std::vector<float> totalGround(size_t(angles_) * stride_, 0.F), lastGround(totalGround.size()), beforeGround;
+    GeometricSeries<float> light(harmonics_, stride_), irradiance(1, stride_);
+    // In logarithms, for the next event to scatter.
+    const auto keep = [&](std::vector<float> field, std::vector<float> ground) {
+        for (size_t point = 0; point < points; ++point)
+            toLogRatios(&field[point * step], harmonics_, stride_);
+        for (float& e : ground)
+            e = e > std::exp2(darkLog2) ? std::log2(e) : darkLog2;
+        values_ = std::move(field);
+        ground_ = std::move(ground);
+    };
     for (int event = 1; event <= mostEvents; ++event) {
-        earlier = std::move(before);
-        before = last;
-        beforeGround = lastGround;
-        std::fill(last.begin(), last.end(), 0.F);
-        std::fill(lastGround.begin(), lastGround.end(), 0.F);
+        std::vector<float> last(points * step, 0.F), lastGround(size_t(angles_) * stride_, 0.F);
         base::parallel([&](int thread, int threads) {
             Scratch scratch;
             std::vector<float> radiance(stride_), ground(stride_);
@@ -347,38 +334,14 @@ CityField::CityField(const CityAir& air, const double discRadius)
         });
         for (float& e : lastGround)
             e = std::max(e, 0.F);
-        for (size_t i = 0; i < total.size(); ++i)
-            total[i] += last[i];
-        for (size_t i = 0; i < totalGround.size(); ++i)
-            totalGround[i] += lastGround[i];
+        light.add(std::move(last));
+        irradiance.add(std::move(lastGround));
         events_ = event;
-        const bool done = event >= fewestEvents && change(total, last, before, earlier, step, stride_) < tolerance;
-        // What the next event scatters.
-        values_ = last;
-        for (size_t point = 0; point < points; ++point)
-            toLogRatios(&values_[point * step], harmonics_, stride_);
-        ground_ = lastGround;
-        for (float& e : ground_)
-            e = e > std::exp2(darkLog2) ? std::log2(e) : darkLog2;
-        if (done)
+        if (event >= fewestEvents && light.change(faintest) < tolerance)
             break;
+        keep(light.last(), irradiance.last());
     }
-    // The rest of the series, in the shape of the last event.
-    for (size_t point = 0; point < points; ++point)
-        for (int w = 0; w < stride_; ++w) {
-            const double added = double(last[point * step + w]);
-            const double share = added > 0 ? geometricTail(added, double(before[point * step + w])) / added : 0;
-            for (int lm = 0; lm < harmonics_; ++lm)
-                total[point * step + lm * stride_ + w] += static_cast<float>(share) * last[point * step + lm * stride_ + w];
-        }
-    for (size_t i = 0; i < totalGround.size(); ++i) {
-        totalGround[i] += static_cast<float>(geometricTail(double(lastGround[i]), double(beforeGround[i])));
-        totalGround[i] = totalGround[i] > std::exp2(darkLog2) ? std::log2(totalGround[i]) : darkLog2;
-    }
-    for (size_t point = 0; point < points; ++point)
-        toLogRatios(&total[point * step], harmonics_, stride_);
-    values_ = std::move(total);
-    ground_ = std::move(totalGround);
+    keep(light.whole(), irradiance.whole());
 }
 
 void cityRadiance(const CityAir& air, const CityField* const field, const double discRadius, const CityView& view,

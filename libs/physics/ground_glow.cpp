@@ -21,6 +21,9 @@ void zonalFactors(int degree, double mu, double* factors)
         factors[l] *= std::sqrt((2 * l + 1) / (4 * pi));
 }
 
+/// Light fainter than this part of the brightest decides nothing.
+constexpr double faintest = 1e-20;
+
 /// A field as sums, before logarithms.
 struct Sums {
     std::vector<double> moments;    // [altitude][l][wavelength]
@@ -118,41 +121,6 @@ private:
     std::vector<std::vector<Ray>> levels_;
 };
 
-void add(std::vector<double>& to, const std::vector<double>& what)
-{
-    for (size_t i = 0; i < to.size(); ++i)
-        to[i] += what[i];
-}
-
-/// Largest relative difference that the last event made to the closed series, over levels and wavelengths.
-double change(const Sums& total, const Sums& last, const Sums& before, const Sums& earlier, int degree, int wavelengths)
-{
-    double largest = 0;
-    for (size_t i = 0; i < total.moments.size(); i += size_t(degree + 1) * wavelengths)
-        for (int w = 0; w < wavelengths; ++w) {
-            const double sum = total.moments[i + w], added = last.moments[i + w];
-            const double now = sum + geometricTail(added, before.moments[i + w]);
-            const double then = sum - added + geometricTail(before.moments[i + w], earlier.moments[i + w]);
-            if (now > darkness)
-                largest = std::max(largest, std::abs(now - then) / now);
-        }
-    return largest;
-}
-
-/// Adds what is beyond the last event; in all harmonics it has that event's shape.
-void close(Sums& total, const Sums& last, const Sums& before, int degree, int wavelengths)
-{
-    for (size_t i = 0; i < total.moments.size(); i += size_t(degree + 1) * wavelengths)
-        for (int w = 0; w < wavelengths; ++w) {
-            const double added = last.moments[i + w];
-            const double scale = added > 0 ? geometricTail(added, before.moments[i + w]) / added : 0;
-            for (int l = 0; l <= degree; ++l)
-                total.moments[i + l * wavelengths + w] += scale * last.moments[i + l * wavelengths + w];
-        }
-    for (size_t w = 0; w < total.irradiance.size(); ++w)
-        total.irradiance[w] += geometricTail(last.irradiance[w], before.irradiance[w]);
-}
-
 } // namespace
 
 void GlowMoments::interpolate(const double altitude, double* const result) const
@@ -201,30 +169,29 @@ GlowField solveGroundGlow(const Medium& medium, const Profile& profile, const Op
     const auto moments = [&](const Sums& sums) { return asMoments(grid, degree, wavelengths, sums); };
     GlowField field;
     const Sums none{std::vector<double>(size_t(grid.altitudeCount()) * (degree + 1) * wavelengths, 0.), std::vector<double>(wavelengths, 0.)};
-    Sums last = sweeps.direct(moments(none)), total = last, before, earlier;
-    if (keepEvents)
-        field.perEvent.push_back(moments(last));
+    GeometricSeries<double> light(degree + 1, wavelengths), irradiance(1, wavelengths);
+    const auto add = [&](Sums event) {
+        light.add(std::move(event.moments));
+        irradiance.add(std::move(event.irradiance));
+        const GlowMoments added = moments({light.last(), irradiance.last()});
+        if (keepEvents)
+            field.perEvent.push_back(added);
+        return added;
+    };
+    GlowMoments last = add(sweeps.direct(moments(none)));
     const bool scatters = !optics.scatterers.empty(); // else no light ever comes down to be reflected
     for (int event = 1; scatters && event <= settings.mostEvents; ++event) {
-        earlier = std::move(before);
-        before = std::move(last);
-        last = sweeps.scattered(moments(before));
-        add(total.moments, last.moments);
-        add(total.irradiance, last.irradiance);
+        last = add(sweeps.scattered(last));
         field.eventCount = event;
-        if (keepEvents)
-            field.perEvent.push_back(moments(last));
         if (breath)
             breath(event);
         if (event < 3)
             continue;
-        field.remainder = change(total, last, before, earlier, degree, wavelengths);
+        field.remainder = light.change(faintest);
         if (field.remainder < settings.tolerance)
             break;
     }
-    if (scatters)
-        close(total, last, before, degree, wavelengths);
-    field.total = moments(total);
+    field.total = moments({light.whole(), irradiance.whole()});
     return field;
 }
 
