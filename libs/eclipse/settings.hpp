@@ -10,7 +10,7 @@ struct FieldSettings {
     int across = 9;           ///< points away from the mirror plane, >= 2
     double reach = 1200e3;    ///< m: how far the grid goes beyond the observer and the shadow
     double core = 50e3;       ///< m: within about this distance of both the points stand evenly, then ever wider
-    int degree = 4;           ///< of the harmonics, at most mostDegree and that of the optics
+    int degree = 5;           ///< of the harmonics, at most mostDegree and that of the optics
     int groundDirections = 6; ///< zenith angles from nadir to the horizon
     int limbDirections = 3;   ///< from the horizon to the horizontal
     int skyDirections = 6;    ///< from the horizontal to the zenith

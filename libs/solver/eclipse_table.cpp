@@ -43,6 +43,7 @@ eclipse::FieldSettings tableSettings(const std::string& quality)
         s.across = 8;
         s.directNodes = 16;
         s.nodes = 9;
+        s.degree = 4;
         s.viewNodes = 28;
     } else {
         const bool finest = quality == "reference";
