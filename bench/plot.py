@@ -8,8 +8,10 @@ from pathlib import Path
 import matplotlib
 
 matplotlib.use("Agg")
-matplotlib.rcParams["svg.fonttype"] = "none"
+# Letters stay letters, and the same table gives the same file.
+matplotlib.rcParams.update({"svg.fonttype": "none", "font.sans-serif": ["DejaVu Sans"], "svg.hashsalt": "CalcMySky"})
 import matplotlib.pyplot as plt
+from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 REGIMES = {"day": "day", "sunset": "sunset", "twilight": "twilight", "high": "from high up"}
 PRESETS = {"draft": "s", "normal": "D", "good": "P", "fine": "^", "finer": "v", "reference": "*"}
@@ -35,11 +37,20 @@ def save(figure, directory, name):
         figure.savefig(directory / f"{name}.{ending}", dpi=110, metadata={"Date": None} if ending == "svg" else None)
 
 
+def plain_log(axis, steps):
+    """Plain numbers and lines at `steps` of each decade and nothing between, which would be most of an SVG."""
+    axis.set_major_locator(LogLocator(subs=steps))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_minor_locator(NullLocator())
+    axis.grid(True, alpha=0.3)
+
+
 def plot_front(directory):
     rows = read(directory / "front.csv")
     names = list(dict.fromkeys(row["name"] for row in rows))
     figure, axes = plt.subplots(len(names), 4, figsize=(14, 2.8 * len(names)), squeeze=False, sharex=True, sharey="row")
     for line, name in zip(axes, names):
+        lowest = math.inf
         for axis, (regime, title) in zip(line, REGIMES.items()):
             mine = [row for row in rows if row["name"] == name]
             floor = max(1e-4, min(0.5 * float(row[regime + "_uncertainty"]) for row in mine) * 100)
@@ -47,16 +58,20 @@ def plot_front(directory):
             def point(row):
                 return float(row["processor_s"]), max(floor, 100 * float(row[regime]))
 
-            axis.scatter(*zip(*map(point, mine)), s=10, color="0.6")
+            lowest = min(lowest, *(point(row)[1] for row in mine))
+            axis.plot(*zip(*map(point, mine)), ".", color="0.6")
             axis.plot(*zip(*pareto(map(point, mine))), color="tab:blue", linewidth=1, drawstyle="steps-post")
             for row in mine:
                 if row["label"] in PRESETS:
                     x, y = point(row)
-                    axis.errorbar(x, y, 100 * float(row[regime + "_uncertainty"]), color="tab:red", marker=PRESETS[row["label"]])
+                    axis.errorbar(x, y, 100 * float(row[regime + "_uncertainty"]), fmt=PRESETS[row["label"]], color="tab:red")
                     axis.annotate(row["label"], (x, y), textcoords="offset points", xytext=(5, 5))
             axis.set(xscale="log", yscale="log", title=f"{name}: {title}")
-            axis.grid(True, which="both", alpha=0.2)
-        line[0].set_ylabel("rms error, %")
+            axis.margins(0.12)
+            axis.tick_params(bottom=False, left=False)
+            plain_log(axis.xaxis, (1, 3))
+            plain_log(axis.yaxis, (1, 2, 5))
+        line[0].set(ylabel="rms error, %", ylim=(0.7 * lowest, None))
     for axis in axes[-1]:
         axis.set_xlabel("processor time of the moments, s")
     figure.tight_layout()
