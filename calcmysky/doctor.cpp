@@ -1,6 +1,5 @@
 // calcmysky doctor: can this machine do the work, how fast, and if not, what is missing.
 
-#include <chrono>
 #include <cmath>
 #include <iostream>
 #include <optional>
@@ -11,6 +10,7 @@
 #include <OpenEXR/OpenEXRConfig.h>
 
 #include "base/error.hpp"
+#include "base/stopwatch.hpp"
 #include "base/terminal.hpp"
 #include "devices.hpp"
 #include "gl/buffer.hpp"
@@ -48,7 +48,7 @@ struct SelfTest {
 SelfTest runSelfTest(const gl::Api& api)
 {
     constexpr int count = 1 << 16;
-    const auto start = std::chrono::steady_clock::now();
+    const base::Stopwatch watch;
     const gl::ProgramBuilder builder(api, [](std::string_view) { return selfTestShader; });
     gl::Program program = builder.compute("self-test", "self-test.comp");
     const gl::Buffer buffer(api, "self-test", std::vector<float>(count, -1.f));
@@ -67,7 +67,7 @@ SelfTest runSelfTest(const gl::Api& api)
         const double error = std::abs(static_cast<double>(values[i]) / expected - 1);
         result.worstError = std::isfinite(error) ? std::max(result.worstError, error) : HUGE_VAL;
     }
-    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    result.seconds = watch.seconds();
     return result;
 }
 

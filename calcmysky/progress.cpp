@@ -1,7 +1,6 @@
 #include "progress.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <iostream>
 #include <optional>
@@ -9,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/interrupt.hpp"
+#include "base/stopwatch.hpp"
 #include "base/terminal.hpp"
 #include "values.hpp"
 
@@ -228,10 +228,10 @@ std::unique_ptr<Reporter> makeReporter(ProgressStyle style, bool quiet, Reporter
 
 ReporterSurroundings standardError()
 {
-    const auto start = std::chrono::steady_clock::now();
+    const base::Stopwatch watch;
     return {std::cerr, isTerminal(Stream::Error), wantsColour(Stream::Error),
             [] { return terminalWidth(Stream::Error); },
-            [start] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }};
+            [watch] { return watch.seconds(); }};
 }
 
 void printError(const ReporterSurroundings& to, const std::string& message)

@@ -4,10 +4,10 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <sstream>
 
+#include "base/angles.hpp"
 #include "base/error.hpp"
 
 namespace sky::cli {
@@ -91,7 +91,7 @@ int wavelengthIndex(const double wavelengthNm, const std::vector<double>& wavele
 std::vector<montecarlo::Query> readQueries(std::istream& file, const std::string& name,
                                            const std::vector<double>& wavelengthsNm, const EclipseScale& scale)
 {
-    constexpr double degree = std::numbers::pi / 180;
+    using base::degree;
     std::string line;
     std::getline(file, line);
     const auto header = cellsOf(line);

@@ -1,7 +1,6 @@
 // calcmysky verify: how good is this model? Compares it with the Monte Carlo reference where it matters.
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <iostream>
@@ -10,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "base/error.hpp"
+#include "base/stopwatch.hpp"
 #include "model/evaluate.hpp"
 #include "model/medium_tables.hpp"
 #include "progress.hpp"
@@ -94,7 +94,7 @@ private:
 
     Verification verify(const Request& request) const
     {
-        const auto start = std::chrono::steady_clock::now();
+        const base::Stopwatch watch;
         const model::Model file = model::Model::open(directory_);
         const model::SkySource source = chosenSource(file);
         const auto reporter = makeReporter(request.progress, request.quiet, standardError());
@@ -126,7 +126,7 @@ private:
             else
                 v.rows.push_back(rows[i]);
         }
-        v.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        v.seconds = watch.seconds();
         return v;
     }
 

@@ -1,28 +1,16 @@
 #include "verify_judge.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
 #include "base/error.hpp"
 #include "base/interrupt.hpp"
+#include "base/stopwatch.hpp"
 
 namespace sky::cli {
 
 namespace {
-
-class Stopwatch
-{
-public:
-    double seconds() const
-    {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    }
-
-private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// Two independent estimates of one radiance: weighted by their paths, not by their own noise, which would bias the mean.
 montecarlo::Result merged(const montecarlo::Result& a, const montecarlo::Result& b)
@@ -55,7 +43,7 @@ double relativeNoise(const montecarlo::Result& result)
 std::vector<montecarlo::Result> judge(const montecarlo::Reference& reference, const std::vector<montecarlo::Query>& queries,
                                       const JudgeSettings& settings, const std::function<void(double)>& progress)
 {
-    const Stopwatch watch;
+    const base::Stopwatch watch;
     montecarlo::Settings path;
     path.orders = settings.orders;
     path.relativeError = settings.relativeError;

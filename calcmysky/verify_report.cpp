@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <iomanip>
-#include <numbers>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
 
+#include "base/angles.hpp"
 #include "model/error_summary.hpp"
 #include "values.hpp"
 #include "verify_judge.hpp"
@@ -15,7 +15,7 @@ namespace sky::cli {
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
+using base::degree;
 
 /// The errors of one regime, at one altitude or (altitudeIndex < 0) at all.
 struct Cell {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
+#include "base/angles.hpp"
 #include "base/error.hpp"
 #include "physics/geometry.hpp"
 
@@ -12,7 +12,7 @@ namespace sky::cli {
 
 namespace {
 
-constexpr double pi = std::numbers::pi, degree = pi / 180;
+using base::degree, base::pi;
 
 /// Upper end of the air that scatters: 1e-6 of vertical optical depth is left above it. 92 km on the clear Earth.
 double scatteringTop(const physics::Medium& medium)

@@ -10,7 +10,7 @@ namespace sky::model {
 
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 constexpr int maxDepth = 16;
 constexpr std::size_t maxItems = 1 << 20;

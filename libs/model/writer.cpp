@@ -23,8 +23,6 @@ namespace sky::model {
 
 namespace fs = std::filesystem;
 
-namespace {
-
 // A stream that remembers the system's reason: OpenEXR writes its last bytes in a destructor, where errors are lost.
 class CheckedStream : public Imf::OStream
 {
@@ -61,6 +59,8 @@ private:
     fs::path path_;
     std::ofstream file_;
 };
+
+namespace {
 
 // As units are written in the spectral layout: "W.m^-2.sr^-1.nm^-1".
 std::string dotted(std::string unit)

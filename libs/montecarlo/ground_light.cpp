@@ -1,20 +1,19 @@
 #include "montecarlo/ground_light.hpp"
 
+#include "base/angles.hpp"
 #include "montecarlo/estimate.hpp"
 #include "montecarlo/paths.hpp"
 #include "montecarlo/reference.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace sky::montecarlo
 {
 namespace
 {
 
-constexpr double pi = std::numbers::pi;
-constexpr double rouletteThreshold = 0.05;
+using base::pi;
 
 /// Distance along the leg at which the optical depth is `depth`.
 double distanceAtDepth(const Profile& profile, const Ray& ray, const Leg& leg, double depth)

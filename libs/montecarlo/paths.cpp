@@ -1,17 +1,18 @@
 #include "montecarlo/paths.hpp"
 
+#include "base/angles.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace sky::montecarlo
 {
 namespace
 {
 
-constexpr double pi = std::numbers::pi;
-constexpr double plainShare = 0.5;         // of events placed by optical depth alone; bounds the guide's weights by 2
-constexpr double rouletteThreshold = 0.05; // of the path's weight at its first counted event
+using base::pi;
+
+constexpr double plainShare = 0.5; // of events placed by optical depth alone; bounds the guide's weights by 2
 
 } // namespace
 

@@ -16,6 +16,9 @@ struct Orders {
     int last = 0;
 };
 
+/// Of a path's weight at its first counted event: paths of less end by chance, or go on with that much.
+constexpr double rouletteThreshold = 0.05;
+
 /// A random direction after a scattering of light that travels along `direction`; multiplies `weight` by the share that is scattered.
 Vec scatteredDirection(const Air& air, Vec direction, const Local& local, double u1, double u2, double& weight);
 

@@ -10,7 +10,7 @@ namespace
 {
 
 constexpr double halvingTolerance = 2e-5;
-constexpr int maxHalvings = 4; // each costs a factor of 4 to 8
+constexpr int mostHalvings = 4; // each costs a factor of 4 to 8
 
 double integrate(const Air& air, const Scene& scene, const Leg& leg, int halvings)
 {
@@ -49,7 +49,7 @@ double integrate(const Air& air, const Scene& scene, const Leg& leg, int halving
 Integral singleScattering(const Air& air, const Scene& scene, const Leg& leg)
 {
     Integral result{integrate(air, scene, leg, 0), 0};
-    for (int halvings = 1; halvings <= maxHalvings; ++halvings) {
+    for (int halvings = 1; halvings <= mostHalvings; ++halvings) {
         const double finer = integrate(air, scene, leg, halvings);
         result = {finer, std::abs(finer - result.value)};
         if (result.error <= halvingTolerance * finer)

@@ -1,3 +1,4 @@
+#include "base/angles.hpp"
 #include "base/error.hpp"
 #include "base/suggest.hpp"
 #include "number_text.hpp"
@@ -8,7 +9,7 @@ namespace showmysky::app {
 
 namespace {
 
-constexpr double degree = 3.14159265358979323846 / 180;
+using sky::base::degree;
 
 std::vector<std::string_view> pieces(std::string_view text, char separator)
 {

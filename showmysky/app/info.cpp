@@ -79,7 +79,7 @@ class Info : public Subcommand
 public:
     CLI::App* addTo(CLI::App& app) override
     {
-        auto* entry = app.add_subcommand("info", "Print what a model holds.");
+        auto* entry = app.add_subcommand("info", "Print what a model holds");
         entry->add_option("DIR", directory_, "Model directory.")->required();
         entry->add_flag("--json", json_, "Print the manifest as JSON, checked and in canonical order.");
         entry->add_flag("--verify", verify_, "Compare the checksums of all files.");

@@ -42,7 +42,7 @@ std::vector<std::string> withSubcommand(const std::vector<CLI::App*>& subcommand
 int main(int argc, char** argv)
 {
     using namespace showmysky;
-    CLI::App app{"Shows the sky of a model made by calcmysky."};
+    CLI::App app{"Shows the sky of a model made by calcmysky: `showmysky MODEL` opens a window."};
     app.name("showmysky");
     app.set_version_flag("--version", SHOWMYSKY_VERSION);
     app.require_subcommand(1);

@@ -1,10 +1,11 @@
 // showmysky measure: how fast this machine draws a model, and what a picture costs.
 
+#include "base/angles.hpp"
 #include "base/error.hpp"
+#include "base/stopwatch.hpp"
 #include "gl/context.hpp"
 #include "showmysky/sky.hpp"
 #include "subcommand.hpp"
-#include <chrono>
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <ctime>
@@ -14,13 +15,13 @@ namespace showmysky::app {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using sky::base::pi;
 
 double secondsOf(const std::function<void()>& action)
 {
-    const auto start = std::chrono::steady_clock::now();
+    const sky::base::Stopwatch watch;
     action();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return watch.seconds();
 }
 
 class Measure : public Subcommand

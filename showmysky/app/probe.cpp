@@ -1,6 +1,7 @@
 // showmysky probe: numbers of the sky for a table of questions.
 
 #include "base/error.hpp"
+#include "base/stopwatch.hpp"
 #include "base/suggest.hpp"
 #include "probe_queries.hpp"
 #include "probe_sources.hpp"
@@ -8,7 +9,6 @@
 #include "subcommand.hpp"
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
@@ -47,7 +47,7 @@ class Probe : public Subcommand
 public:
     CLI::App* addTo(CLI::App& app) override
     {
-        auto* entry = app.add_subcommand("probe", "Answer a table of questions: spectral radiance or luminance of directions.");
+        auto* entry = app.add_subcommand("probe", "Answer a table of questions: spectral radiance or luminance of directions");
         entry->add_option("DIR", directory_, "Model directory.")->required();
         entry->add_option("QUERIES", queries_, "CSV file with a header of altitude_m, sun_zenith_deg, sun_azimuth_deg, "
                                                "view_zenith_deg, view_azimuth_deg; - for standard input.");
@@ -179,9 +179,9 @@ private:
                 for (auto& view : views)
                     view = {sameRay ? 1000 : unit(random) * 0.1 * photometer.topOfAtmosphere(), unit(random) * 1.66, 0,
                             sameRay ? 1 : unit(random) * 1.57, unit(random) * 6.28};
-                const auto start = std::chrono::steady_clock::now();
+                const sky::base::Stopwatch watch;
                 photometer.radianceMany(views.data(), views.size(), layers, spectra.data());
-                best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / questions);
+                best = std::min(best, watch.seconds() / questions);
             }
             return best * 1e6;
         };

@@ -1,4 +1,5 @@
 #include "probe_queries.hpp"
+#include "base/angles.hpp"
 #include "base/error.hpp"
 #include "base/suggest.hpp"
 #include <algorithm>
@@ -11,7 +12,7 @@ namespace showmysky::app {
 
 namespace {
 
-constexpr double degree = 3.14159265358979323846 / 180;
+using sky::base::degree;
 constexpr std::size_t complaintsAtMost = 20;
 
 struct Cell {

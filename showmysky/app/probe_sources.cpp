@@ -1,4 +1,5 @@
 #include "probe_sources.hpp"
+#include "base/angles.hpp"
 #include "base/error.hpp"
 #include "bodies.hpp"
 #include "model/eclipse_table.hpp"
@@ -17,7 +18,7 @@ namespace showmysky::app {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using sky::base::pi;
 
 std::vector<std::string> spectralColumns(const std::vector<double>& wavelengthsNm)
 {

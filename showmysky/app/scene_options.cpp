@@ -1,5 +1,6 @@
 #include "scene_options.hpp"
 
+#include "base/angles.hpp"
 #include "base/error.hpp"
 #include "scene_fields.hpp"
 #include "scene_file.hpp"
@@ -11,7 +12,7 @@ namespace showmysky::app {
 
 namespace {
 
-constexpr double degree = 3.14159265358979323846 / 180;
+using sky::base::degree;
 
 /// A mistake in a value, as the command line's parser reports it.
 template<class Action>

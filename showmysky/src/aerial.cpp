@@ -1,6 +1,7 @@
 #include "aerial.hpp"
 
 #include "aerial_axis.hpp"
+#include "base/angles.hpp"
 #include "base/parallel.hpp"
 #include "physics/sky.hpp"
 #include <algorithm>
@@ -12,11 +13,11 @@ namespace physics = sky::physics;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-constexpr float dark = 1e-30f;
+using sky::base::pi;
+constexpr float faintest = 1e-30f; // told from no light
 /// Parts of the interval between two distances, each with sunlight of its own.
 constexpr int singleParts = 2;
-/// Air darker than this is opaque.
+/// Air darker than this is faintest.
 constexpr double mostDepth = 80;
 
 AerialSpacing spacingOf(const physics::Planet& planet, double altitude, bool ground)
@@ -147,13 +148,13 @@ void Aerial::trace(int view, physics::RayTracer& tracer)
         columnShares.push_back(luminance(all));
         Texel depth{};
         for (std::size_t c = 0; c < 4; ++c)
-            depth[c] = through[c] > dark * white[c] ? -std::log(through[c] / white[c]) : static_cast<float>(mostDepth);
+            depth[c] = through[c] > faintest * white[c] ? -std::log(through[c] / white[c]) : static_cast<float>(mostDepth);
         for (int a = 0; a < columns(); ++a)
             at(atmosphere_.scatterers() + 1, k, view, a) = depth;
     }
     for (Texel& share : columnShares)
         for (std::size_t c = 0; c < 4; ++c)
-            share[c] = columnShares.back()[c] > dark ? share[c] / columnShares.back()[c] : 1.f;
+            share[c] = columnShares.back()[c] > faintest ? share[c] / columnShares.back()[c] : 1.f;
     growLight(view, mu, line(seen, *entry, ground, singleParts), line(seen, *entry, ground, 1), columnShares);
 }
 
@@ -171,8 +172,8 @@ void Aerial::growLight(int view, double mu, const Line& single, const Line& mult
     const auto store = [&](int table, int column, const Texel& total) {
         for (int k = 0; k < distances; ++k)
             for (std::size_t c = 0; c < 4; ++c)
-                at(table, k, view, column)[c] = total[c] > dark ? std::clamp(grown[static_cast<std::size_t>(k)][c] / total[c], 0.f, 1.f)
-                                                                 : columnShares[static_cast<std::size_t>(k)][c];
+                at(table, k, view, column)[c] = total[c] > faintest ? std::clamp(grown[static_cast<std::size_t>(k)][c] / total[c], 0.f, 1.f)
+                                                                   : columnShares[static_cast<std::size_t>(k)][c];
     };
     const double radius = atmosphere_.planet().radius + scene_.altitude, flat = std::sqrt(std::max(0., 1 - mu * mu));
     for (int a = 0; a < columns(); ++a) {

@@ -179,6 +179,11 @@ int showmysky_draw(showmysky_sky* sky, const showmysky_camera* camera, int width
     return guarded([&] { sky->sky.draw(cameraOf(*camera), width, height, reduction); });
 }
 
+int showmysky_draw_prepared(showmysky_sky* sky, const showmysky_camera* camera, int width, int height, int reduction)
+{
+    return guarded([&] { sky->sky.drawPrepared(cameraOf(*camera), width, height, reduction); });
+}
+
 unsigned showmysky_luminance_texture(const showmysky_sky* sky)
 {
     return sky->sky.luminanceTexture();

@@ -1,6 +1,7 @@
 #include "cities.hpp"
 
 #include "air_entry.hpp"
+#include "base/angles.hpp"
 #include "base/parallel.hpp"
 #include "physics/colour.hpp"
 #include "physics/table_axes.hpp"
@@ -13,11 +14,11 @@ namespace physics = sky::physics;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-constexpr double cellScale = 2; // of the tracer
+using sky::base::pi;
+constexpr double cityCells = 2; // of the tracer
 /// Of a city's own table; azimuths from its direction, pi x^2: close where its light is.
 constexpr int halfViews = 24, azimuths = 17;
-constexpr int nodes = 14;                 ///< along a ray, beside those near the city
+constexpr int cityNodes = 14;             ///< along a ray, beside those near the city
 constexpr std::size_t fieldsKept = 16;
 constexpr double largestRadius = 0.1;     ///< of the planet's
 constexpr double darkest = 1e-30;         ///< that is told from zero
@@ -73,11 +74,14 @@ std::vector<double> Cities::spectrumOf(const City& city) const
     return spectrum;
 }
 
-bool Cities::isPrepared(double radius) const
+CityLight Cities::light(const std::vector<City>& cities, double altitude) const
 {
-    const std::lock_guard lock(mutex_);
-    const double angle = radius / air_.profile().planet().radius;
-    return std::any_of(fields_.begin(), fields_.end(), [&](const auto& field) { return field->discRadius() == angle; });
+    CityLight result{altitude, cities, ViewTable(drawnHalfViews, cityAzimuths), {}};
+    for (const City& city : cities) {
+        addTo(result.air, city, altitude);
+        result.discs.push_back(drawn(city, altitude));
+    }
+    return result;
 }
 
 std::shared_ptr<const physics::CityField> Cities::field(double radius) const
@@ -110,9 +114,9 @@ void Cities::addRadiance(const std::vector<City>& cities, double altitude, const
     const auto entry = enterAir(planet, altitude, direction[2]);
     if (!entry)
         return;
-    physics::RayTracer tracer(air_.profile(), air_.optics(), cellScale);
+    physics::RayTracer tracer(air_.profile(), air_.optics(), cityCells);
     const bool ground = physics::hitsGround(planet, altitude, direction[2]);
-    const physics::CityColumns ray(tracer, entry->altitude, entry->mu, ground, nodes);
+    const physics::CityColumns ray(tracer, entry->altitude, entry->mu, ground, cityNodes);
     std::vector<double> light(weights_.size());
     for (const City& city : cities) {
         const double angle = city.distance / planet.radius;
@@ -137,7 +141,7 @@ void Cities::addTo(ViewTable& table, const City& city, double altitude) const
     ViewTable own(halfViews, azimuths);
     const auto sines = viewSines(planet, altitude, halfViews);
     sky::base::parallel([&](int thread, int threads) {
-        physics::RayTracer tracer(air_.profile(), air_.optics(), cellScale);
+        physics::RayTracer tracer(air_.profile(), air_.optics(), cityCells);
         std::vector<double> light(weights_.size());
         for (int v = thread; v < 2 * halfViews; v += threads) {
             const double mu = sines[static_cast<std::size_t>(v)], flat = std::sqrt(std::max(0., 1 - mu * mu));
@@ -145,7 +149,7 @@ void Cities::addTo(ViewTable& table, const City& city, double altitude) const
             if (!entry)
                 continue;
             const bool ground = v >= halfViews;
-            const physics::CityColumns ray(tracer, entry->altitude, entry->mu, ground, nodes);
+            const physics::CityColumns ray(tracer, entry->altitude, entry->mu, ground, cityNodes);
             for (int a = 0; a < azimuths; ++a) {
                 const double x = static_cast<double>(a) / (azimuths - 1), nu = alongAxis(angle, mu, flat * std::cos(pi * x * x));
                 const double there = std::clamp(entry->outerScale * std::cos(angle) + entry->outerShift * nu, -1., 1.);
@@ -172,7 +176,7 @@ DrawnCity Cities::drawn(const City& city, double altitude) const
     const auto& planet = air_.profile().planet();
     DrawnCity result{city.distance / planet.radius, city.azimuth, city.radius / planet.radius, {}};
     const auto spectrum = spectrumOf(city);
-    physics::RayTracer tracer(air_.profile(), air_.optics(), cellScale);
+    physics::RayTracer tracer(air_.profile(), air_.optics(), cityCells);
     const double R = planet.radius, r = R + altitude;
     for (int k = 0; k < cityColourCount; ++k) {
         const double near = std::max(0., result.angle - result.radius), far = result.angle + result.radius;

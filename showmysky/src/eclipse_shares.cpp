@@ -1,6 +1,7 @@
 #include "eclipse_shares.hpp"
 
 #include "air_entry.hpp"
+#include "base/angles.hpp"
 #include "base/parallel.hpp"
 #include <algorithm>
 #include <cmath>
@@ -11,7 +12,7 @@ namespace physics = sky::physics;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using sky::base::pi;
 
 } // namespace
 

@@ -1,5 +1,6 @@
 #include "eclipse_sky.hpp"
 
+#include "base/angles.hpp"
 #include "base/parallel.hpp"
 #include "eclipse_view.hpp"
 #include "physics/table_axes.hpp"
@@ -13,10 +14,10 @@ namespace eclipse = sky::eclipse;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using sky::base::pi;
 /// Directions in which the light of higher orders is asked: it is smooth.
 constexpr int ratioHalfViews = 10, ratioAzimuths = 16;
-constexpr int raysPerStep = 16;
+constexpr int sharesPerStep = 16;
 
 /// Bilinear, in the coordinates of an ordinary table.
 Texel sampled(const ViewTable& table, double coordinate, int half, double azimuth)
@@ -69,7 +70,7 @@ bool EclipseSky::step()
     if (ready_)
         return true;
     if (!light_) {
-        if (!shares_.step(raysPerStep))
+        if (!shares_.step(sharesPerStep))
             return false;
         const auto& planet = atmosphere_.planet();
         // Nodes, and ground as far as it is seen.

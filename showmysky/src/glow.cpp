@@ -10,7 +10,7 @@ namespace physics = sky::physics;
 
 namespace {
 
-constexpr double cellScale = physics::GlowSettings().cells;
+constexpr double glowCells = physics::GlowSettings().cells;
 
 /// The same light in all azimuths.
 void setView(ViewTable& table, int view, const std::array<double, 4>& luminance)
@@ -58,7 +58,7 @@ void Glow::along(physics::RayTracer& tracer, const AirEntry& entry, bool ground,
 void Glow::radiance(double altitude, double mu, double* result) const
 {
     std::fill(result, result + weights_.size(), 0.);
-    physics::RayTracer tracer(profile_, optics_, cellScale);
+    physics::RayTracer tracer(profile_, optics_, glowCells);
     if (const auto entry = enterAir(profile_.planet(), altitude, mu))
         along(tracer, *entry, physics::hitsGround(profile_.planet(), altitude, mu), result);
 }
@@ -68,7 +68,7 @@ ViewTable Glow::fromMoments(double altitude) const
     ViewTable table(MomentGather::halfViews, 2);
     const auto sines = viewSines(profile_.planet(), altitude, table.halfViews);
     sky::base::parallel([&](int thread, int threads) {
-        physics::RayTracer tracer(profile_, optics_, cellScale);
+        physics::RayTracer tracer(profile_, optics_, glowCells);
         std::vector<double> light(weights_.size());
         for (int v = thread; v < 2 * table.halfViews; v += threads)
             if (const auto entry = enterAir(profile_.planet(), altitude, sines[static_cast<std::size_t>(v)])) {

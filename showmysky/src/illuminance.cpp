@@ -1,4 +1,5 @@
 #include "illuminance.hpp"
+#include "base/angles.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +8,7 @@ namespace showmysky {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using sky::base::pi;
 /// Angles from the Sun, dense near it as cubes, and directions around it.
 constexpr int angles = 160, turns = 96;
 

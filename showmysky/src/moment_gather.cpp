@@ -1,6 +1,7 @@
 #include "moment_gather.hpp"
 
 #include "air_entry.hpp"
+#include "base/angles.hpp"
 #include "base/parallel.hpp"
 #include "base/lanes.hpp"
 #include "physics/harmonics.hpp"
@@ -14,7 +15,7 @@ namespace physics = sky::physics;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using sky::base::pi;
 constexpr float toLog2 = 1.44269504f;
 
 /// depth[w] interpolated in a table of sunlight at `near` (two elevations, two rows), to visible exp(-depth).

@@ -1,5 +1,6 @@
 #include "painter.hpp"
 
+#include "base/angles.hpp"
 #include "gl/pixel_store.hpp"
 #include "physics/table_axes.hpp"
 #include "sky_axes.hpp"
@@ -15,7 +16,7 @@ namespace gl = sky::gl;
 namespace {
 
 constexpr GLuint tablesUnit = 0, phasesUnit = 1, directionsUnit = 2, cityAirUnit = 3, cityDiscsUnit = 4;
-constexpr double pi = 3.14159265358979323846;
+using sky::base::pi;
 
 gl::Program buildProgram(const gl::Api& api, int scatterers, const Options& options, bool eclipse, bool cities)
 {

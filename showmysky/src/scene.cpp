@@ -1,13 +1,16 @@
 #include "scene.hpp"
 
 #include "air_entry.hpp"
+#include "base/angles.hpp"
 #include "bodies.hpp"
 #include "model/eclipse_table.hpp"
 #include "model/moment_tables.hpp"
 #include "physics/sky.hpp"
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 namespace showmysky {
 
@@ -15,7 +18,7 @@ namespace physics = sky::physics;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using sky::base::pi;
 /// The table of sunlight: coarser than the solver's, error below 1e-3 (tests/showmysky/scene.cpp).
 constexpr int sunAltitudes = 64, sunElevations = 96;
 /// Rays that a step of preparation follows.
@@ -24,8 +27,10 @@ constexpr int raysPerStep = 16;
 constexpr int linesPerStep = 8;
 /// Heights on the disc at which the Sun's light is followed for its illuminance.
 constexpr int illuminanceSamples = 33;
+/// That a step waits for the light of cities.
+constexpr std::chrono::milliseconds cityPatience{10};
 /// Along a ray through the shadow, for single directions.
-constexpr int eclipseNodes = 400;
+constexpr int nodesInShadow = 400;
 /// Whatever a model asks for, its tables stay within what textures can hold.
 constexpr int mostEclipseSize = 256;
 
@@ -360,7 +365,7 @@ ViewTable Scene::glow() const
     return result;
 }
 
-/// Does a part of the work on cities, if there is any left.
+/// Has cities lit in the background, while others go on drawing the scene before; false once their light is there.
 bool Scene::lightCities()
 {
     const bool shown = settings_.layers.lightPollution && !settings_.cities.empty();
@@ -370,16 +375,11 @@ bool Scene::lightCities()
     }
     if (cityView_.altitude == settings_.altitude && cityView_.cities == settings_.cities)
         return false;
-    for (const City& city : settings_.cities)
-        if (!cities_->isPrepared(city.radius)) {
-            cities_->prepare(city.radius);
-            return true;
-        }
-    cityView_ = {settings_.altitude, settings_.cities, ViewTable(drawnHalfViews, cityAzimuths), {}};
-    for (const City& city : settings_.cities) {
-        cities_->addTo(cityView_.air, city, settings_.altitude);
-        cityView_.discs.push_back(cities_->drawn(city, settings_.altitude));
-    }
+    if (!citiesLit_.valid())
+        citiesLit_ = std::async(std::launch::async, [&lamps = std::as_const(*cities_), cities = settings_.cities,
+                                                     altitude = settings_.altitude] { return lamps.light(cities, altitude); });
+    if (citiesLit_.wait_for(cityPatience) == std::future_status::ready)
+        cityView_ = citiesLit_.get(); // of settings that may have changed since: then the next step begins with the new ones
     return true;
 }
 
@@ -532,7 +532,7 @@ std::vector<double> Scene::spectralRadiance(const std::array<double, 3>& directi
     if (eclipse) {
         while (!ready_)
             step();
-        parts.singleNodes = eclipseNodes;
+        parts.singleNodes = nodesInShadow;
         if (moments_ && (layers.multiple || (layers.ground && ground)))
             ratios = eclipse_->ratios(view, ground);
     }

@@ -10,6 +10,7 @@
 #include "painter.hpp"
 #include "showmysky/sky.hpp"
 #include "texture_lookup.hpp"
+#include <future>
 #include <optional>
 
 namespace showmysky {
@@ -91,6 +92,7 @@ private:
     bool ordinaryReady_ = false;
     bool ready_ = false;
     int version_ = 0;
+    std::future<CityLight> citiesLit_; ///< in the background; last, so that it ends before what it reads
 };
 
 } // namespace showmysky

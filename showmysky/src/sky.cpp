@@ -15,25 +15,21 @@ namespace showmysky {
 
 namespace gl = sky::gl;
 
-namespace {
-
-/// What a picture was drawn with.
-struct Drawn {
-    int version = -1, width = 0, height = 0, reduction = 0;
-    Camera camera;
-
-    bool operator==(const Drawn& other) const
-    {
-        return version == other.version && width == other.width && height == other.height &&
-               reduction == other.reduction && camera.projection == other.camera.projection &&
-               camera.fieldOfView == other.camera.fieldOfView && camera.yaw == other.camera.yaw &&
-               camera.pitch == other.camera.pitch && camera.directionTexture == other.camera.directionTexture;
-    }
-};
-
-} // namespace
-
 struct Sky::Inside {
+    /// What a picture was drawn with.
+    struct Drawn {
+        int version = -1, width = 0, height = 0, reduction = 0;
+        Camera camera;
+
+        bool operator==(const Drawn& other) const
+        {
+            return version == other.version && width == other.width && height == other.height &&
+                   reduction == other.reduction && camera.projection == other.camera.projection &&
+                   camera.fieldOfView == other.camera.fieldOfView && camera.yaw == other.camera.yaw &&
+                   camera.pitch == other.camera.pitch && camera.directionTexture == other.camera.directionTexture;
+        }
+    };
+
     Inside(const std::string& directory, const GlLoader& loader, Options options_)
         : options(std::move(options_)), context(loader), scene(directory)
     {
@@ -59,6 +55,33 @@ struct Sky::Inside {
             throw Error(ErrorKind::settings, "There is no pixel " + std::to_string(x) + ", " + std::to_string(y) +
                                                  " in a picture of " + std::to_string(size.width) + " x " +
                                                  std::to_string(size.height) + ".");
+    }
+    void requireDrawable(const Camera& camera, int width, int height, int reduction) const
+    {
+        requireLoaded();
+        requireContext();
+        const int most = context.api().limits().textureSize;
+        if (width < 1 || height < 1 || width > most || height > most || reduction < 1)
+            throw Error(ErrorKind::settings, "A picture of " + std::to_string(width) + " x " + std::to_string(height) +
+                                                 " pixels can't be drawn: sides must be 1 to " + std::to_string(most) +
+                                                 ", the reduction at least 1.");
+        if (camera.directionTexture == 0)
+            projectionScale(camera, width, height);
+    }
+    /// True if there was something to draw.
+    bool draw(const Drawn& wanted)
+    {
+        // What a host's function or texture returns may have changed without our knowing.
+        const bool known = options.viewDirectionFunction.empty() && wanted.camera.directionTexture == 0;
+        if (known && wanted == drawn)
+            return false;
+        drawn = {};
+        const gl::StateGuard guard(context.api());
+        if (wanted.version == scene.version())
+            uploadIfReady();
+        painter->draw(wanted.camera, wanted.width, wanted.height, wanted.reduction);
+        drawn = wanted;
+        return true;
     }
     /// Puts the tables on the GPU once they are there.
     void uploadIfReady()
@@ -261,28 +284,19 @@ bool Sky::draw(const Camera& camera, int width, int height, int reduction)
 {
     return translated([&] {
         auto& in = *inside_;
-        in.requireLoaded();
-        in.requireContext();
-        const int most = in.context.api().limits().textureSize;
-        if (width < 1 || height < 1 || width > most || height > most || reduction < 1)
-            throw Error(ErrorKind::settings, "A picture of " + std::to_string(width) + " x " + std::to_string(height) +
-                                                 " pixels can't be drawn: sides must be 1 to " + std::to_string(most) +
-                                                 ", the reduction at least 1.");
-        if (camera.directionTexture == 0)
-            projectionScale(camera, width, height);
+        in.requireDrawable(camera, width, height, reduction);
         while (!in.scene.step().done) {
         }
-        const Drawn wanted{in.scene.version(), width, height, reduction, camera};
-        // What a host's function or texture returns may have changed without our knowing.
-        const bool known = in.options.viewDirectionFunction.empty() && camera.directionTexture == 0;
-        if (known && wanted == in.drawn)
-            return false;
-        in.drawn = {};
-        const gl::StateGuard guard(in.context.api());
-        in.uploadIfReady();
-        in.painter->draw(camera, width, height, reduction);
-        in.drawn = wanted;
-        return true;
+        return in.draw({in.scene.version(), width, height, reduction, camera});
+    });
+}
+
+bool Sky::drawPrepared(const Camera& camera, int width, int height, int reduction)
+{
+    return translated([&] {
+        auto& in = *inside_;
+        in.requireDrawable(camera, width, height, reduction);
+        return in.uploaded >= 0 && in.draw({in.uploaded, width, height, reduction, camera});
     });
 }
 

@@ -1,5 +1,6 @@
 #include "sky_axes.hpp"
 
+#include "base/angles.hpp"
 #include "physics/table_axes.hpp"
 #include <algorithm>
 #include <cmath>
@@ -8,7 +9,7 @@ namespace showmysky {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using sky::base::pi;
 
 /// Inverse of an increasing function on low..high.
 template<class F>

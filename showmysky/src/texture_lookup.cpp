@@ -16,7 +16,7 @@ std::vector<std::string> tableNames(const Atmosphere& atmosphere)
 {
     std::vector<std::string> names;
     if (!sky::model::scattersOnceAtMost(atmosphere.model.manifest()))
-        names.push_back(multipleScattering);
+        names.emplace_back(multipleScattering);
     for (int i = 0; i < atmosphere.scatterers(); ++i)
         names.push_back(atmosphere.singleScatteringTable(i));
     return names;

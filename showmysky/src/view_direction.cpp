@@ -1,4 +1,5 @@
 #include "view_direction.hpp"
+#include "base/angles.hpp"
 
 #include <cmath>
 
@@ -6,7 +7,7 @@ namespace showmysky {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using sky::base::pi;
 
 } // namespace
 

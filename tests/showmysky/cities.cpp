@@ -2,6 +2,7 @@
 #include "showmysky/photometry.hpp"
 #include "sky_for_tests.hpp"
 #include <catch2/catch.hpp>
+#include <chrono>
 
 using namespace showmysky;
 using namespace showmysky::testing;
@@ -150,4 +151,59 @@ TEST_CASE("cities that can't be are refused with a sentence", "[gl]")
     CHECK_THAT(refusal(sky, {{1e3, 0, 1e3, -1, {}}}), Contains("luminance"));
     CHECK_THAT(refusal(sky, {{1e3, 0, 1e3, 1, {1, 2}}}), Contains("one value for each"));
     CHECK_THAT(refusal(sky, {{1e3, 0, 1e3, 1, std::vector<double>(sky.wavelengths().size(), 0.)}}), Contains("visible"));
+}
+
+TEST_CASE("a city of a new radius is lit while the scene before goes on being drawn", "[gl]")
+{
+    auto context = sky::gl::testing::context(desktop());
+    if (!context)
+        return;
+    Sky sky = loadedSky(*context);
+    const Camera camera = panorama();
+    CHECK_FALSE(sky.drawPrepared(camera, 64, 32)); // nothing has been prepared
+    const auto before = night(0, {{20e3, 1, 3e3, 2, {}}}), after = night(0, {{20e3, 1, 2e3, 2, {}}, {9e3, 4, 1e3, 1, {}}});
+    const auto pictureOf = [&](Sky& drawer, const Camera& where) {
+        drawer.draw(where, 64, 32);
+        return drawer.readLuminance();
+    };
+    const auto same = [](const std::vector<Luminance>& a, const std::vector<Luminance>& b) {
+        return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Luminance& p, const Luminance& q) {
+            return p.x == q.x && p.y == q.y && p.z == q.z && p.scotopic == q.scotopic;
+        });
+    };
+    Camera turned = camera;
+    turned.yaw = 2;
+    sky.setSettings(before);
+    const auto first = pictureOf(sky, camera), firstTurned = pictureOf(sky, turned);
+    REQUIRE_FALSE(same(first, firstTurned));
+
+    using Clock = std::chrono::steady_clock;
+    const auto start = Clock::now();
+    sky.setSettings(after);
+    Clock::duration longest{};
+    for (bool done = false, odd = false; !done; odd = !odd) {
+        const auto begin = Clock::now();
+        const Progress progress = sky.prepareStep();
+        longest = std::max(longest, Clock::now() - begin);
+        done = progress.done;
+        if (done || progress.activity != "Lighting cities")
+            continue;
+        sky.drawPrepared(odd ? camera : turned, 64, 32);
+        CHECK(same(sky.readLuminance(), odd ? first : firstTurned));
+    }
+    CHECK(longest < (Clock::now() - start) / 4); // two fields, a second each, would be nearly all of it
+    const auto second = pictureOf(sky, camera);
+    CHECK_FALSE(same(second, first));
+
+    // Settings that change while threads work on others, and a picture at once.
+    Sky other = loadedSky(*context);
+    other.setSettings(before);
+    CHECK_FALSE(other.prepareStep().done);
+    other.setSettings(after);
+    CHECK(same(pictureOf(other, camera), second));
+    // Nobody waits for what nobody wants.
+    other.setSettings(night(0, {{20e3, 1, 5e3, 2, {}}}));
+    CHECK_FALSE(other.prepareStep().done);
+    other.setSettings(scene(0, 60));
+    CHECK(pictureOf(other, camera).at(64 * 20).y > 0);
 }

@@ -1,6 +1,7 @@
 #include "input.hpp"
 
 #include "view_direction.hpp"
+#include "base/angles.hpp"
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -9,7 +10,7 @@ namespace showmysky::app::preview {
 
 namespace {
 
-constexpr double degree = 3.14159265358979323846 / 180;
+using sky::base::degree;
 constexpr double clickReach = 4;                                          // pixels: a hand isn't that steady
 constexpr double narrowest = 0.05, widestPerspective = 170, widest = 360; // degrees
 

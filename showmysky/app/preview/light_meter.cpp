@@ -1,5 +1,6 @@
 #include "light_meter.hpp"
 
+#include "base/angles.hpp"
 #include "physics/colour.hpp"
 #include <algorithm>
 #include <cmath>
@@ -8,7 +9,7 @@ namespace showmysky::app::preview {
 
 std::optional<Reading> readLight(Sky& sky, const std::array<double, 2>& share)
 {
-    constexpr double degree = 3.14159265358979323846 / 180;
+    using sky::base::degree;
     const int x = std::clamp(static_cast<int>(share[0] * sky.width()), 0, sky.width() - 1);
     const int y = std::clamp(static_cast<int>(share[1] * sky.height()), 0, sky.height() - 1);
     const auto direction = sky.viewDirection(x, y);

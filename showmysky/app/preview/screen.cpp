@@ -1,6 +1,6 @@
 #include "screen.hpp"
+#include "base/stopwatch.hpp"
 
-#include <chrono>
 
 namespace showmysky::app::preview {
 
@@ -20,12 +20,12 @@ void Screen::show(Developer& developer, unsigned luminance, const Development& d
         developed_.reset();
     }
     if (developed_ != development) {
-        const auto start = std::chrono::steady_clock::now();
+        const sky::base::Stopwatch watch;
         const gl::Bound target(framebuffer_);
         developer.draw(luminance, development, development.exposure, {0, 0, canvas.width, canvas.height});
         api_->Finish();
         developed_ = development;
-        seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        seconds_ = watch.seconds();
     }
     api_->BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.name());
     api_->BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);

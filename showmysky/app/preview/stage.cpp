@@ -1,22 +1,15 @@
 #include "stage.hpp"
+#include "base/stopwatch.hpp"
 
 #include <algorithm>
-#include <chrono>
 
 namespace showmysky::app::preview {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-constexpr auto stepBudget = std::chrono::milliseconds(15);
+constexpr double stepBudget = 0.015; // s
 constexpr double comfortable = 0.03; // s, of a picture while things move
 constexpr int mostReduction = 4;
-
-double secondsSince(Clock::time_point start)
-{
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// The part of a scene that decides about light, not where one looks or how it is shown.
 SceneOptions lightOf(SceneOptions scene)
@@ -68,30 +61,30 @@ Stage::Result Stage::advance(Sky& sky, const SceneOptions& scene, const Canvas& 
     // What was begun is finished first: otherwise a Sun that is dragged would never arrive.
     if (!preparing_)
         ask(sky, scene);
-    const auto start = Clock::now();
-    while (preparing_ && Clock::now() - start < stepBudget) {
+    const sky::base::Stopwatch watch;
+    while (preparing_ && watch.seconds() < stepBudget) {
         const Progress progress = sky.prepareStep();
         activity_ = progress.done ? std::string() : progress.activity;
         fraction_ = progress.fraction;
         preparing_ = !progress.done;
     }
-    if (preparing_)
-        return {};
-    const bool behind = asked_ != lightOf(scene);
+    const bool behind = preparing_ || asked_ != lightOf(scene);
     reduction_ = 1;
     while (moving && reduction_ < mostReduction && fullSeconds_ / (reduction_ * reduction_) > comfortable)
         ++reduction_;
-    const auto drawing = Clock::now();
+    const sky::base::Stopwatch drawing;
     Result result;
     try {
-        result.drawn = sky.draw(scene.camera(), canvas.width, canvas.height, reduction_);
+        // The camera goes on turning under the sky that was there before.
+        result.drawn = preparing_ ? sky.drawPrepared(scene.camera(), canvas.width, canvas.height, reduction_)
+                                  : sky.draw(scene.camera(), canvas.width, canvas.height, reduction_);
     } catch (const std::exception& error) {
         refusal_ = error.what();
         return {false, true};
     }
     if (result.drawn) {
         finish();
-        drawSeconds_ = secondsSince(drawing);
+        drawSeconds_ = drawing.seconds();
         fullSeconds_ = drawSeconds_ * reduction_ * reduction_;
     }
     result.atRest = !behind && reduction_ == 1;

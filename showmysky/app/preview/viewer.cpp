@@ -1,9 +1,10 @@
 #include "viewer.hpp"
 
+#include "base/angles.hpp"
 #include "base/error.hpp"
+#include "base/stopwatch.hpp"
 #include "scene_file.hpp"
 #include "spectrum_plot.hpp"
-#include <chrono>
 #include <cstdio>
 #include <filesystem>
 
@@ -11,20 +12,13 @@ namespace showmysky::app::preview {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr double patienceIdle = 0.1, patienceWaiting = 0.02; // s between looks at files and child processes
 constexpr int framesAfterEvent = 3;
-
-double secondsSince(Clock::time_point start)
-{
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 std::string inWords(const EclipseState& state)
 {
     using Phase = EclipseState::Phase;
-    constexpr double degree = 3.14159265358979323846 / 180;
+    using sky::base::degree;
     const char* phase = state.phase == Phase::total     ? "total eclipse"
                         : state.phase == Phase::annular ? "annular eclipse"
                         : state.phase == Phase::partial ? "partial eclipse"
@@ -244,7 +238,7 @@ void Viewer::run()
     while (!window_.closing() && !quit_) {
         const bool busy = framesDue_ > 0 || (exhibit_.sky() && !atRest_);
         const auto events = window_.events(busy ? 0 : exhibit_.waiting() ? patienceWaiting : patienceIdle);
-        const auto start = Clock::now();
+        const sky::base::Stopwatch watch;
         if (!events.empty())
             framesDue_ = framesAfterEvent;
         const bool drawing = framesDue_ > 0;
@@ -257,7 +251,7 @@ void Viewer::run()
         if (drawing) {
             drawFrame();
             --framesDue_;
-            frameSeconds_ = secondsSince(start);
+            frameSeconds_ = watch.seconds();
         }
     }
     const Canvas size = window_.size();

@@ -83,6 +83,9 @@ SHOWMYSKY_API int showmysky_eclipse_state(const showmysky_sky* sky, const showmy
 SHOWMYSKY_API int showmysky_uses_eclipse_table(const showmysky_sky* sky, const showmysky_scene* scene);
 SHOWMYSKY_API int showmysky_draw(showmysky_sky* sky, const showmysky_camera* camera, int width, int height,
                                  int reduction);
+/* The last scene that was prepared to the end, without waiting, while the next is prepared; nothing before the first. */
+SHOWMYSKY_API int showmysky_draw_prepared(showmysky_sky* sky, const showmysky_camera* camera, int width, int height,
+                                          int reduction);
 SHOWMYSKY_API unsigned showmysky_luminance_texture(const showmysky_sky* sky);
 SHOWMYSKY_API unsigned showmysky_program(const showmysky_sky* sky);
 

@@ -110,8 +110,8 @@ public:
     /// True if these settings are drawn from the model's eclipse table: SceneSettings::precomputedEclipse asks for it, and Sun and Moon
     /// stand concentric before the camera, of the radii that the table was made for, up to 3 % of their difference.
     bool usesEclipseTable(const SceneSettings& settings) const;
-    /// Computes a part of what the settings changed: call until done, then draw() doesn't wait. draw() does what is
-    /// left.
+    /// Computes a part of what the settings changed, some tens of milliseconds: call until done, then draw() doesn't wait. draw() does
+    /// what is left. Light of cities is computed by threads that go on between the calls.
     Progress prepareStep();
 
     // Drawing.
@@ -120,6 +120,9 @@ public:
     ///   reduction  >= 1: pixels per drawn pixel, both ways, for scenes in motion
     ///   returns    true if it was drawn anew
     bool draw(const Camera& camera, int width, int height, int reduction = 1);
+    /// The same of the last scene that was prepared to the end, and never waits: for a camera that turns while prepareStep() is at
+    /// work on the next. False before the first such scene.
+    bool drawPrepared(const Camera& camera, int width, int height, int reduction = 1);
     /// RGBA: X, Y, Z, scotopic in cd m^-2, bottom row first. Belongs to the Sky; a new one after a change of size.
     unsigned luminanceTexture() const;
     int width() const; ///< of the luminance texture
