@@ -15,3 +15,7 @@ endif()
 # which nothing here asks for: link `sky_vectors`. Values, infinities and NaNs stay as they are.
 add_library(sky_vectors INTERFACE)
 target_compile_options(sky_vectors INTERFACE -O3 -fno-trapping-math -fno-math-errno)
+
+# Code of text, options and calls of drivers takes longer to optimise than it ever runs: link `sky_plain`.
+add_library(sky_plain INTERFACE)
+target_compile_options(sky_plain INTERFACE $<$<CONFIG:Release>:-O1>)

@@ -56,9 +56,8 @@ ensure_packages() {
 
 # build PRESET [target...]: configures where needed and builds.
 build() {
-    local preset=$1 launcher=()
+    local preset=$1
     shift
-    command -v ccache > /dev/null && launcher=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-    step "Configuring ($preset)" cmake --preset "$preset" "${launcher[@]}"
+    step "Configuring ($preset)" cmake --preset "$preset"
     step "Building" cmake --build --preset "$preset" ${1:+--target "$@"}
 }

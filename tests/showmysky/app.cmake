@@ -8,8 +8,9 @@ foreach(part computation input places preferences watch) # of the window, what n
     target_sources(test_showmysky_app PRIVATE ${app}/preview/${part}.cpp)
 endforeach()
 target_include_directories(test_showmysky_app PRIVATE ${app} ${PROJECT_SOURCE_DIR}/tests)
-target_link_libraries(test_showmysky_app PRIVATE sky_options sky_test_main showmysky_static PNG::PNG OpenEXR::OpenEXR
+target_link_libraries(test_showmysky_app PRIVATE sky_options sky_plain sky_test_main showmysky_static PNG::PNG OpenEXR::OpenEXR
     nlohmann_json::nlohmann_json CLI11::CLI11)
+sky_compile_together(test_showmysky_app)
 catch_discover_tests(test_showmysky_app TEST_PREFIX "showmysky app: ")
 
 # The window itself, on a screen in memory. Label `window`: it needs Xvfb and xdotool, and is skipped without them.
