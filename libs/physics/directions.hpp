@@ -17,9 +17,14 @@ struct MomentSettings {
     int directNodes = 48;   ///< along a ray, for the first event: sunlight varies fast near the shadow's edge
     int nodes = 12;         ///< along a ray, for later events: the scattered field is smoother
     bool truncatePeaks = true; ///< delta-M scaling
+    double tolerance = 2.5e-3; ///< share of the light, rms: all orders are there when an event changes their closed series by less
+    int leastAzimuthal = 4;    ///< azimuthal order that all events go up to
 
+    /// Share of an event's light for which an azimuthal order is worth its time. The sky holds less of it, and loses only what later events
+    /// would make of it.
+    double negligibleOrder() const { return 20 * tolerance; }
     /// Azimuths for light of azimuthal orders 0..m.
-    int azimuthsFor(int m) const { return std::min(azimuths, std::max(6, m + 2)); }
+    int azimuthsFor(int m) const { return std::min(azimuths, m + 2); }
 };
 
 /// Zenith angles at which the field of one level is gathered, with the weights of their quadrature over mu.

@@ -83,17 +83,17 @@ Optics makeOptics(const Medium& medium, const int degree, const bool truncate)
     return optics;
 }
 
-int azimuthalDegree(const Optics& optics, const int event)
+int azimuthalDegree(const Optics& optics, const int event, const double negligible, const int least)
 {
     double largest = 0;
-    for (int m = optics.degree; m > 5; --m) {
+    for (int m = optics.degree; m > least; --m) {
         for (const int s : optics.scatterers)
             for (int w = 0; w < optics.wavelengths; ++w)
                 largest = std::max(largest, std::abs(optics.moment(s, m, w)));
-        if ((2 * m + 1) * std::pow(largest, event + 1) > 0.01)
+        if ((2 * m + 1) * std::pow(largest, event + 1) > negligible)
             return m;
     }
-    return std::min(optics.degree, 5);
+    return std::min(optics.degree, least);
 }
 
 } // namespace sky::physics

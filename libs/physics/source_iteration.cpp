@@ -56,7 +56,7 @@ Moments iterateSource(const Medium& medium, const Profile& profile, const Optics
 
     for (int order = 1; order <= orders; ++order) {
         Moments current = empty;
-        const int azimuthal = order == 1 ? settings.degree : azimuthalDegree(optics, order);
+        const int azimuthal = order == 1 ? settings.degree : azimuthalDegree(optics, order, settings.negligibleOrder(), settings.leastAzimuthal);
         const int azimuths = order == 1 ? settings.azimuths : settings.azimuthsFor(azimuthal);
         for (int l = azimuthal + 1; l <= settings.degree; ++l)
             for (int m = azimuthal + 1; m <= l; ++m)

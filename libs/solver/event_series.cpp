@@ -46,10 +46,15 @@ void EventSeries::add(const Sums& event)
     if (then.empty())
         return;
     const double least = faintest * *std::max_element(means_.begin(), means_.end());
-    change_ = 0;
+    double squares = 0;
+    std::size_t lit = 0;
     for (std::size_t i = 0; i < means_.size(); ++i)
-        if (means_[i] > least)
-            change_ = std::max(change_, std::abs(means_[i] - then[i]) / means_[i]);
+        if (means_[i] > least) {
+            const double relative = (means_[i] - then[i]) / means_[i];
+            squares += relative * relative;
+            ++lit;
+        }
+    change_ = lit > 0 ? std::sqrt(squares / double(lit)) : 0;
 }
 
 Sums EventSeries::total() const

@@ -22,7 +22,8 @@ public:
     void add(const Sums& event);
     /// Of the events that were added.
     const Sums& sum() const { return sum_; }
-    /// Largest relative difference that the last event made to what `total` will answer, over the same places.
+    /// Relative difference that the last event made to what `total` will answer, rms over the same places. What is left to do is
+    /// smaller: each event closes the series several times better than the last.
     double change() const { return change_; }
     Sums total() const;
 

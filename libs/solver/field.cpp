@@ -13,33 +13,46 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 constexpr double toLog2 = 1.44269504088896340736;
 
-/// One node: `levels` are the field at the four altitudes of its stencil, [sun][lm][stride] each.
-SKY_WIDEST_VECTORS
-void foldNode(const float* const levels[4], const float weights[4], const float* __restrict coefficients, int suns, int degree,
-              int azimuthal, int stride, float* __restrict target)
+/// One node under one Sun: `levels` are the field at the four altitudes of its stencil, [lm][stride] each.
+inline __attribute__((always_inline)) void foldSun(const float* const levels[4], const float weights[4], const float* __restrict coefficients,
+                                                   int degree, int azimuthal, int stride, float* __restrict out)
 {
-    const int harmonics = (degree + 1) * (degree + 2) / 2, rows = azimuthal + 2;
-    for (int sun = 0; sun < suns; ++sun) {
-        const float* __restrict a = levels[0] + sun * harmonics * stride;
-        const float* __restrict b = levels[1] + sun * harmonics * stride;
-        const float* __restrict c = levels[2] + sun * harmonics * stride;
-        const float* __restrict d = levels[3] + sun * harmonics * stride;
-        float* __restrict out = target + sun * rows * stride;
-        for (int w = 0; w < stride; ++w) {
-            out[w] = weights[0] * a[w] + weights[1] * b[w] + weights[2] * c[w] + weights[3] * d[w];
-            out[stride + w] = coefficients[w];
-        }
-        for (int i = 2 * stride; i < rows * stride; ++i)
-            out[i] = 0;
-        for (int l = 1; l <= degree; ++l)
-            for (int m = 0; m <= std::min(l, azimuthal); ++m) {
-                const int at = (l * (l + 1) / 2 + m) * stride;
-                float* __restrict term = out + (m + 1) * stride;
-                for (int w = 0; w < stride; ++w)
-                    term[w] += coefficients[at + w] *
-                               (weights[0] * a[at + w] + weights[1] * b[at + w] + weights[2] * c[at + w] + weights[3] * d[at + w]);
-            }
+    const float *__restrict a = levels[0], *__restrict b = levels[1], *__restrict c = levels[2], *__restrict d = levels[3];
+    for (int w = 0; w < stride; ++w) {
+        out[w] = weights[0] * a[w] + weights[1] * b[w] + weights[2] * c[w] + weights[3] * d[w];
+        out[stride + w] = coefficients[w];
     }
+    for (int i = 2 * stride; i < (azimuthal + 2) * stride; ++i)
+        out[i] = 0;
+    for (int l = 1; l <= degree; ++l)
+        for (int m = 0; m <= std::min(l, azimuthal); ++m) {
+            const int at = (l * (l + 1) / 2 + m) * stride;
+            float* __restrict term = out + (m + 1) * stride;
+            for (int w = 0; w < stride; ++w)
+                term[w] += coefficients[at + w] *
+                           (weights[0] * a[at + w] + weights[1] * b[at + w] + weights[2] * c[at + w] + weights[3] * d[at + w]);
+        }
+}
+
+/// The nodes of a ray in the air: Sun by Sun, since neighbouring nodes look at the same levels.
+///   coefficients  [node][lm][stride]
+///   target        [node][sun][1 + term][stride]
+SKY_WIDEST_VECTORS
+void foldNodes(const FoldField& field, const ScatteredRays::FoldNode* nodes, int nodeCount, int degree, int azimuthal,
+               const float* coefficients, float* target)
+{
+    const int stride = field.stride, values = field.harmonics * stride;
+    for (int sun = 0; sun < field.suns; ++sun)
+        for (int k = 0; k < nodeCount; ++k) {
+            const float* levels[4];
+            for (int i = 0; i < 4; ++i)
+                levels[i] = &field.moments[(std::size_t(nodes[k].level[i]) * field.suns + sun) * values];
+            float* out = target + (k * field.suns + sun) * (azimuthal + 2) * stride;
+            if (stride == 16) // the usual number of wavelengths: loops that the compiler can unroll
+                foldSun(levels, nodes[k].weight, coefficients + k * values, degree, azimuthal, 16, out);
+            else
+                foldSun(levels, nodes[k].weight, coefficients + k * values, degree, azimuthal, stride, out);
+        }
 }
 
 /// X, Y, Z, scotopic: the compiler's vector type.
@@ -94,20 +107,19 @@ void refine(const float* __restrict source, const std::vector<physics::Stencil>&
     }
 }
 
-void foldAir(const FoldField& field, const ScatteredRays& rays, std::size_t at, int azimuthal, std::vector<float>& coefficients, float* to)
+/// What depends on the ray alone: `coefficients` [node][lm][stride].
+void foldDirections(const ScatteredRays& rays, std::size_t firstNode, int azimuthal, int harmonics, int stride, float* coefficients)
 {
-    const int degree = rays.degree, stride = field.stride;
-    const auto& node = rays.folds[at];
-    const float* c = &rays.coefficients[at * (degree + 1) * stride];
-    const float* p = &rays.factors[at * field.harmonics];
-    for (int l = 0, lm = 0; l <= degree; ++l)
-        for (int m = 0; m <= l; ++m, ++lm)
-            for (int w = 0; w < stride; ++w)
-                coefficients[lm * stride + w] = c[l * stride + w] * p[lm];
-    const float* levels[4];
-    for (int i = 0; i < 4; ++i)
-        levels[i] = &field.moments[std::size_t(node.level[i]) * field.suns * field.harmonics * stride];
-    foldNode(levels, node.weight, coefficients.data(), field.suns, degree, azimuthal, stride, to);
+    for (int k = 0; k < rays.nodes; ++k, coefficients += harmonics * stride) {
+        const float* c = &rays.coefficients[(firstNode + k) * (rays.degree + 1) * stride];
+        const float* p = &rays.factors[(firstNode + k) * harmonics];
+        for (int l = 0; l <= rays.degree; ++l)
+            for (int m = 0; m <= std::min(l, azimuthal); ++m) {
+                const int lm = physics::harmonicIndex(l, m);
+                for (int w = 0; w < stride; ++w)
+                    coefficients[lm * stride + w] = c[l * stride + w] * p[lm];
+            }
+    }
 }
 
 /// What the ground throws into a ray: the same in all azimuths.
@@ -151,21 +163,24 @@ void fold(const FoldField& field, const ScatteredRays& rays, const int first, co
           const std::vector<std::array<float, 4>>& luminance, float* const source)
 {
     const int rows = azimuthal + 2, stride = field.stride, channels = luminance.empty() ? stride : 4;
+    const int values = field.suns * rows;
     base::parallel([&](int thread, int threads) {
-        std::vector<float> coefficients(field.harmonics * stride), spectral(std::size_t(field.suns) * rows * stride),
-            bright(luminance.empty() ? 0 : std::size_t(field.suns) * rows * 4);
+        std::vector<float> coefficients(std::size_t(rays.nodes) * field.harmonics * stride), spectral(std::size_t(rays.nodes + 1) * values * stride),
+            bright(luminance.empty() ? 0 : std::size_t(values) * 4);
         std::vector<Four> weights(stride);
-        for (int r = thread; r < count; r += threads)
+        for (int r = thread; r < count; r += threads) {
+            const std::size_t firstNode = std::size_t(first + r) * rays.nodes;
+            foldDirections(rays, firstNode, azimuthal, field.harmonics, stride, coefficients.data());
+            foldNodes(field, &rays.folds[firstNode], rays.nodes, rays.degree, azimuthal, coefficients.data(), spectral.data());
+            foldGround(field, &rays.ground[std::size_t(first + r) * stride], rows, &spectral[std::size_t(rays.nodes) * values * stride]);
             for (int k = 0; k <= rays.nodes; ++k) {
-                if (k < rays.nodes)
-                    foldAir(field, rays, std::size_t(first + r) * rays.nodes + k, azimuthal, coefficients, spectral.data());
-                else
-                    foldGround(field, &rays.ground[std::size_t(first + r) * stride], rows, spectral.data());
+                const float* node = &spectral[std::size_t(k) * values * stride];
                 if (!luminance.empty())
-                    toLuminance(spectral.data(), luminance.data()->data(), field.suns, rows, stride, weights.data(), bright.data());
-                refine(luminance.empty() ? spectral.data() : bright.data(), field.fineSuns, rows * channels,
+                    toLuminance(node, luminance.data()->data(), field.suns, rows, stride, weights.data(), bright.data());
+                refine(luminance.empty() ? node : bright.data(), field.fineSuns, rows * channels,
                        source + (std::size_t(r) * (rays.nodes + 1) + k) * field.fineSuns.size() * rows * channels);
             }
+        }
     });
 }
 

@@ -43,7 +43,7 @@ public:
             rays_.emplace(api_, scene_, grid_, starts_, settings_.nodes);
             gather_.emplace(api_, scene_, true, std::vector<std::array<double, 4>>{});
         }
-        const int azimuthal = physics::azimuthalDegree(scene_.optics, event);
+        const int azimuthal = physics::azimuthalDegree(scene_.optics, event, settings_.negligibleOrder(), settings_.leastAzimuthal);
         const SunSamples samples(api_, sunCosines(), azimuthCosines(settings_.azimuthsFor(azimuthal)));
         gather_->gather(*rays_, FoldField(field, sweepRefinement), azimuthal, samples, stridesOf(samples), results_, breath);
         return project(azimuthal, samples.azimuths);
@@ -187,7 +187,7 @@ RadiationField iterate(const gl::Api& api, const Scene& scene, const physics::Mo
             field.perEvent.push_back(sweeps.toMoments(last));
     };
     keep(1);
-    const double tolerance = limit.tolerance > 0 ? limit.tolerance : limit.all ? 1e-3 : 0;
+    const double tolerance = limit.tolerance > 0 ? limit.tolerance : limit.all ? settings.tolerance : 0;
     for (int event = 2; event <= wanted; ++event) {
         last = sweeps.scattered(sweeps.toMoments(last), event, [&] { breath(fractionOf(event - 1)); });
         keep(event);

@@ -12,7 +12,7 @@ constexpr int sweepRefinement = 2;
 struct OrderLimit {
     int orders = 4;          ///< of the light that is to be seen: the field needs one event less
     bool all = false;        ///< go on until the last event changes the whole series, closed, by less than `tolerance`
-    double tolerance = 0;    ///< relative; 0: exactly `orders`
+    double tolerance = 0;    ///< relative, rms; 0: exactly `orders`, or where all are wanted what the settings say
 };
 
 /// The converged radiation field and what it cost.
@@ -22,7 +22,7 @@ struct RadiationField {
     physics::Moments firstFromGround;       ///< likewise: the part of event 1 that is reflection by the ground
     std::vector<std::vector<double>> irradiance; ///< [event - 1]: [altitude][sun][wavelength], downward, unit solar irradiance
     int eventCount = 0;
-    double remainder = 0;             ///< largest relative change by the last event, where a tolerance decided
+    double remainder = 0;             ///< rms of the relative change by the last event, where a tolerance decided
 };
 
 /// Source iteration for the radiance moments (docs/method): each sweep gathers, for every level, Sun and direction, the light
