@@ -10,7 +10,7 @@ namespace {
 
 Axis sunAxis(const physics::MomentGrid& grid)
 {
-    Axis axis{"sunElevation", "rad", {}, {"sinh", {{"scale", physics::MomentGrid::sinhScale}}}};
+    Axis axis{"sunElevation", "rad", {}, {"sinh", {{"scale", grid.sunScale()}}}};
     for (int j = 0; j < grid.sunCount(); ++j)
         axis.nodes.push_back(grid.sunElevation(j));
     return axis;
@@ -83,9 +83,13 @@ physics::Moments readMoments(const Model& model, const std::string& name)
             throw bad("its altitudes must increase.");
     if (!(suns.front() < 0) || suns.front() < -1.5708)
         throw bad("its lowest Sun must stand between -90 degrees and the horizontal.");
+    const auto& mapping = table.axes[2].mapping;
+    const auto scale = mapping.parameters.find("scale");
+    if (mapping.id != "sinh" || scale == mapping.parameters.end() || !(scale->second > 0 && scale->second <= 40))
+        throw bad("its Suns must follow the mapping \"sinh\" with a scale above 0, at most 40.");
     physics::Moments m;
     m.grid = physics::MomentGrid({manifest.planetRadius, manifest.topOfAtmosphere}, altitudes, suns.front(),
-                                 static_cast<int>(suns.size()));
+                                 static_cast<int>(suns.size()), scale->second);
     m.degree = degree;
     m.wavelengths = manifest.wavelengthCount();
     for (std::size_t j = 0; j < suns.size(); ++j)

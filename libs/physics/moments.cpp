@@ -18,10 +18,29 @@ constexpr double levelOpticalDepth = 0.3;
 /// So many times more of them in an interval with an edge.
 constexpr double edgeCrowding = 1.25;
 
+/// Angle over which the Sun goes out, dip of the horizon and diameter of the disc, that the least scale of the axis resolves: the Earth's.
+constexpr double usualSunset = 0.15;
+
+/// Beyond, days would be coarse for the sake of a sunset that lasts seconds.
+constexpr double mostSunScale = 8;
+
+/// Scale of the axis of elevations whose step at the horizon, proportional to a / sinh a, is to a sunset of that angle as on Earth.
+double sunScaleFor(const double sunset)
+{
+    const double least = MomentGrid::leastSunScale, wanted = std::min(1., sunset / usualSunset) * least / std::sinh(least);
+    double low = least, high = mostSunScale; // a / sinh a falls
+    for (int i = 0; i < 60; ++i) {
+        const double a = 0.5 * (low + high);
+        (a / std::sinh(a) > wanted ? low : high) = a;
+    }
+    return low;
+}
+
+
 } // namespace
 
 MomentGrid::MomentGrid(const Profile& profile, const std::vector<double>& largestExtinction, const int altitudeCount,
-                       const int sunCount)
+                       const int sunCount, const double sunRadius)
     : planet_(profile.planet()), sunCount_(sunCount)
 {
     const double top = planet_.topOfAtmosphere;
@@ -91,27 +110,29 @@ MomentGrid::MomentGrid(const Profile& profile, const std::vector<double>& larges
             effectiveTop = std::max(shells[k], 1e-3 * top);
             break;
         }
-    lowest_ = std::max(-pi / 2, 3.2 * horizonElevation(planet_, effectiveTop) - 0.02);
-    *this = MomentGrid(planet_, altitudes_, lowest_, sunCount_);
+    const double dip = -horizonElevation(planet_, effectiveTop);
+    lowest_ = std::max(-pi / 2, -3.2 * dip - std::max(0.02, 2 * sunRadius));
+    *this = MomentGrid(planet_, altitudes_, lowest_, sunCount_, sunScaleFor(dip + 2 * sunRadius));
 }
 
-MomentGrid::MomentGrid(const Planet planet, std::vector<double> altitudes, const double lowestElevation, const int sunCount)
-    : planet_(planet), altitudes_(std::move(altitudes)), lowest_(lowestElevation), sunCount_(sunCount)
+MomentGrid::MomentGrid(const Planet planet, std::vector<double> altitudes, const double lowestElevation, const int sunCount,
+                       const double sunScale)
+    : planet_(planet), altitudes_(std::move(altitudes)), lowest_(lowestElevation), sunScale_(sunScale), sunCount_(sunCount)
 {
     for (const double h : altitudes_)
         measure_.push_back(horizonDistance(planet_, h));
-    vLowest_ = std::asinh(lowest_ / (pi / 2) * std::sinh(sinhScale)) / sinhScale;
+    vLowest_ = std::asinh(lowest_ / (pi / 2) * std::sinh(sunScale_)) / sunScale_;
 }
 
 double MomentGrid::sunElevation(const double position) const
 {
     const double v = vLowest_ + (1 - vLowest_) * position / (sunCount_ - 1);
-    return std::min(pi / 2, pi / 2 * std::sinh(sinhScale * v) / std::sinh(sinhScale));
+    return std::min(pi / 2, pi / 2 * std::sinh(sunScale_ * v) / std::sinh(sunScale_));
 }
 
 double MomentGrid::sunPosition(const double elevation) const
 {
-    const double v = std::asinh(elevation / (pi / 2) * std::sinh(sinhScale)) / sinhScale;
+    const double v = std::asinh(elevation / (pi / 2) * std::sinh(sunScale_)) / sunScale_;
     return std::clamp((v - vLowest_) / (1 - vLowest_) * (sunCount_ - 1), 0., sunCount_ - 1.);
 }
 

@@ -8,8 +8,8 @@ namespace sky::physics {
 
 /// Grid of the radiance moments: altitude x elevation of the Sun.
 ///
-/// The elevation axis is e = (pi/2) sinh(a v) / sinh(a), a = 3, v uniform: fine in twilight. It begins below the Sun
-/// that lights any air.
+/// The elevation axis is e = (pi/2) sinh(a v) / sinh(a), v uniform: fine in twilight, and the finer the less the horizon dips. It begins
+/// below the Sun that lights any air.
 class MomentGrid
 {
 public:
@@ -17,9 +17,11 @@ public:
     /// Grid that follows the medium: `altitudeCount` levels evenly spread in sqrt(r^2 - R^2), and more wherever a density
     /// jumps or the vertical optical depth between two levels exceeds a bound.
     ///   extinction  [altitude interval of the profile] is asked through the largest cross sections, [species], m^2
-    MomentGrid(const Profile& profile, const std::vector<double>& largestExtinction, int altitudeCount, int sunCount);
+    ///   sunRadius   of the disc, rad
+    MomentGrid(const Profile& profile, const std::vector<double>& largestExtinction, int altitudeCount, int sunCount, double sunRadius = 0);
     /// Grid as it was stored.
-    MomentGrid(Planet planet, std::vector<double> altitudes, double lowestElevation, int sunCount);
+    ///   sunScale    a, > 0
+    MomentGrid(Planet planet, std::vector<double> altitudes, double lowestElevation, int sunCount, double sunScale = leastSunScale);
 
     const std::vector<double>& altitudes() const { return altitudes_; }
     int altitudeCount() const { return static_cast<int>(altitudes_.size()); }
@@ -32,7 +34,11 @@ public:
     double sunElevation(double position) const;
     /// Position 0..sunCount-1 of a Sun's elevation, clamped to the grid.
     double sunPosition(double elevation) const;
-    static constexpr double sinhScale = 3;
+    /// a of the axis, 3 for most planets.
+    double sunScale() const { return sunScale_; }
+    /// v of the lowest Sun.
+    double vLowest() const { return vLowest_; }
+    static constexpr double leastSunScale = 3;
 
     /// Cubic Hermite with slopes of parabolas through three levels, in the measure sqrt(r^2 - R^2).
     Stencil altitudeStencil(double altitude) const;
@@ -46,6 +52,7 @@ private:
     std::vector<double> altitudes_;
     std::vector<double> measure_;
     double lowest_ = 0;
+    double sunScale_ = leastSunScale;
     double vLowest_ = 0;
     int sunCount_ = 0;
 };

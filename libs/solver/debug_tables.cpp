@@ -16,7 +16,7 @@ void writeScatteringDensity(const BakeJob& job, const physics::Moments& field, c
     spec.quantity = "moments of the emission coefficient";
     spec.unit = "W m^-3 nm^-1";
     spec.isSigned = true;
-    model::Axis suns{"sunElevation", "rad", {}, {"sinh", {{"scale", physics::MomentGrid::sinhScale}}}};
+    model::Axis suns{"sunElevation", "rad", {}, {"sinh", {{"scale", field.grid.sunScale()}}}};
     for (int j = 0; j < field.grid.sunCount(); ++j)
         suns.nodes.push_back(field.grid.sunElevation(j));
     model::Axis lm{"harmonic l (l + 1) / 2 + m", "1", {}, {"index", {}}};

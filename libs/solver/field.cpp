@@ -140,8 +140,7 @@ FoldField::FoldField(const physics::Moments& m, const int refinement)
     suns = grid.sunCount();
     harmonics = physics::harmonicCount(m.degree);
     stride = (m.wavelengths + 3) / 4 * 4;
-    const double scale = std::sinh(physics::MomentGrid::sinhScale);
-    vLowest = std::asinh(grid.lowestElevation() / (pi / 2) * scale) / physics::MomentGrid::sinhScale;
+    sunAxis = {static_cast<float>(grid.sunScale()), static_cast<float>(std::sinh(grid.sunScale())), static_cast<float>(grid.vLowest())};
     moments.assign(std::size_t(grid.altitudeCount()) * suns * harmonics * stride, 0.F);
     ground.assign(std::size_t(suns) * stride, 0.F);
     for (int a = 0; a < grid.altitudeCount(); ++a)

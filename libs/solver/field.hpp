@@ -1,12 +1,13 @@
 #pragma once
 #include "solver/rays.hpp"
+#include <array>
 
 namespace sky::solver {
 
 /// The radiation field as the fold reads it: in main memory, wavelengths padded to whole sets of four.
 struct FoldField {
     int suns = 0, harmonics = 0, stride = 0; ///< stride: padded wavelengths
-    double vLowest = 0;
+    std::array<float, 3> sunAxis{}; ///< of the axis of Suns: a, sinh a, v of the lowest (physics::MomentGrid)
     std::vector<float> moments; ///< [altitude][sun][lm][wavelength]: log2 I_00, then I_lm / I_00
     std::vector<float> ground;  ///< [sun][wavelength]: log2 of the diffuse irradiance of the ground
     /// Where fine Suns stand among those of the grid: on a folded ray's axis of Suns the gather may interpolate linearly.

@@ -147,7 +147,7 @@ void ScatteredGather::gather(const ScatteredRays& rays, const FoldField& field, 
     bind(program_, "rayNodes", 2, rays.rayNodes);
     program_.set("fieldSuns", field.fineSunCount());
     program_.set("terms", azimuthal + 1);
-    program_.set("vLowest", static_cast<float>(field.vLowest));
+    program_.set("sunAxisOfField", field.sunAxis);
 
     const std::size_t perRay = std::size_t(rays.nodes + 1) * field.fineSunCount() * (azimuthal + 2) * sets_;
     const int chunk = raysTogether(api_, samples, rays.count, rays.nodes, perRay);

@@ -125,7 +125,8 @@ void solve(const atmo::Description& description, const Options& asked, gl::Headl
     const physics::Optics optics = physics::makeOptics(medium, quality.moments.degree, quality.moments.truncatePeaks);
     const physics::SunTable sun(profile, optics, medium.sunAngularRadius);
     const Scene scene{medium, profile, optics, sun};
-    const physics::MomentGrid grid(profile, largestExtinctions(optics), quality.moments.altitudes, quality.moments.suns);
+    const physics::MomentGrid grid(profile, largestExtinctions(optics), quality.moments.altitudes, quality.moments.suns,
+                                   medium.sunAngularRadius);
     const BakeJob job{description, options, scene, quality.bake, physics::sunTableDarkEnd(grid.darkDepth()),
                       description.scatteringSize};
     model::describeOptics(manifest, optics, quality.moments.truncatePeaks);

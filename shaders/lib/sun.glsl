@@ -28,11 +28,12 @@ float sunAxis(float elevation, float horizon, float radius, float inverseRange)
     return min(1.0, inverseSinh(x / sunAxisScale) * inverseRange);
 }
 
-// Position on the elevation axis of the moments, 0..1: e = (pi/2) sinh(3 v) / sinh 3, v from vLowest to 1.
-float momentAxis(float elevation, float vLowest)
+// Position on the elevation axis of the moments, 0..1: e = (pi/2) sinh(a v) / sinh a, v from its value for the lowest Sun to 1.
+// axis: a, sinh a, lowest v.
+float momentAxis(float elevation, vec3 axis)
 {
-    float v = inverseSinh(elevation * (10.0178749274 / halfPi)) / 3.0;
-    return clamp((v - vLowest) / (1.0 - vLowest), 0.0, 1.0);
+    float v = inverseSinh(elevation * (axis.y / halfPi)) / axis.x;
+    return clamp((v - axis.z) / (1.0 - axis.z), 0.0, 1.0);
 }
 
 // Mean cosine of the visible part of the disc on a horizontal surface at the ground: the centroid of the segment that shows.

@@ -6,7 +6,7 @@
 
 uniform samplerBuffer source; // [ray of this dispatch][node][sun][1 + term][set], from fold()
 uniform int fieldSuns, terms; // terms: azimuthal orders
-uniform float vLowest;
+uniform vec3 sunAxisOfField; // see momentAxis
 
 void main()
 {
@@ -23,7 +23,7 @@ void main()
     for (int k = 0; k < count; ++k) {
         vec4 node = texelFetch(rayNodes, s.ray * (nodes + 1) + k);
         float muSun = clamp(node.x * s.muSun + node.y * s.nu, -1.0, 1.0);
-        float position = momentAxis(elevationOf(muSun), vLowest) * float(fieldSuns - 1);
+        float position = momentAxis(elevationOf(muSun), sunAxisOfField) * float(fieldSuns - 1);
         int sun = min(int(position), fieldSuns - 2);
         float x = position - float(sun);
         float c = azimuthCosine(node.z, muSun, s.nu);

@@ -142,6 +142,21 @@ TEST_CASE("grid of the moments: levels at the edges of a cloud and inside it, in
     CHECK(widest * 10 / 1000 <= 0.5 + 1e-3); // optical depth between levels: the bound of the grid
 }
 
+TEST_CASE("grid of the moments: a sunset meets as many Suns on any planet, and noon its share")
+{
+    for (const double radius : {1e5, 6.371e6, 1e8, 1e10}) {
+        const double top = std::min(20e3, radius / 20), disc = 0.0047;
+        const Profile profile(sky::test::withDensity(sky::test::layer(1, 1, 0, sky::test::isotropicPhase, radius), {0, top}, {1, 1}));
+        const MomentGrid grid(profile, {0.1 / top}, 12, 28, disc);
+        const double sunset = 2 * disc - horizonElevation({radius, top}, top);
+        INFO("radius " << radius << " scale " << grid.sunScale());
+        CHECK(grid.sunPosition(0.5 * sunset) - grid.sunPosition(-0.5 * sunset) > 4);
+        CHECK(grid.sunElevation(26) > 0.7 * pi / 2);
+        CHECK(grid.sunElevation(0) < -2 * sunset);
+        CHECK(grid.sunPosition(grid.sunElevation(7)) == Approx(7));
+    }
+}
+
 TEST_CASE("grid of the moments: levels follow haze whose profile has no nodes of its own")
 {
     const Profile profile(sky::test::haze(1.25));

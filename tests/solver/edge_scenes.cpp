@@ -109,7 +109,7 @@ TEST_CASE("edge scene: all orders end by themselves, over white ground too, and 
         const int events = std::stoi(run.model.manifest().settings.at("moments.events"));
         CHECK(events > 2);
         CHECK(events < 60);
-        CHECK(run.model.manifest().estimatedError.at("orders left out") < 1e-3);
+        CHECK(run.model.manifest().estimatedError.at("orders left out") < 5e-3); // as `draft` asks for
         brightness[albedo] = largest(run.model, "multiple-scattering");
     }
     CHECK(brightness[1] > 1.2 * brightness[0]);

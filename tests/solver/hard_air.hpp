@@ -128,7 +128,7 @@ struct World {
         : medium(air), settings(scaled(normal, fineness_)), fineness(fineness_), profile(medium),
           optics(physics::makeOptics(medium, settings.degree, settings.truncatePeaks)),
           sun(profile, optics, medium.sunAngularRadius, scaled(56, fineness), scaled(112, fineness)),
-          grid(profile, largestExtinctions(optics), settings.altitudes, settings.suns)
+          grid(profile, largestExtinctions(optics), settings.altitudes, settings.suns, medium.sunAngularRadius)
     {
     }
     World(const World&) = delete;

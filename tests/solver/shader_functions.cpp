@@ -132,24 +132,26 @@ TEST_CASE("shader: axes of the tables over the Sun's elevation", "[gl]")
     const auto context = gl::testing::context();
     if (!context)
         return;
-    const physics::MomentGrid grid({6.371e6, 120e3}, {0, 120e3}, -0.45, 33);
-    const double sinhScale = std::sinh(physics::MomentGrid::sinhScale);
-    const double vLowest = std::asinh(-0.45 / (pi / 2) * sinhScale) / physics::MomentGrid::sinhScale;
-    std::vector<Vec4> sun, moments;
-    for (const double e : {-1.5, -0.46, -0.45, -0.1, -0.0046, -1e-5, 0., 1e-4, 0.0046, 0.02, 0.3, 1., pi / 2}) {
-        moments.push_back({static_cast<float>(e), static_cast<float>(vLowest), 0, 0});
+    const std::vector<double> elevations{-1.5, -0.46, -0.45, -0.1, -0.0046, -1e-5, 0., 1e-4, 0.0046, 0.02, 0.3, 1., pi / 2};
+    for (const double scale : {3., 7.5}) {
+        const physics::MomentGrid grid({6.371e6, 120e3}, {0, 120e3}, -0.45, 33, scale);
+        std::vector<Vec4> moments;
+        for (const double e : elevations)
+            moments.push_back({static_cast<float>(e), static_cast<float>(scale), static_cast<float>(std::sinh(scale)), static_cast<float>(grid.vLowest())});
+        const auto values = evaluate(context->api(), "lib/sun.glsl", "momentAxis(x.x, x.yzw)", moments);
+        for (std::size_t i = 0; i < moments.size(); ++i) {
+            INFO("elevation " << moments[i][0] << " scale " << scale);
+            CHECK(double(values[i]) == Approx(grid.sunPosition(double(moments[i][0])) / 32).margin(1e-6)); // a hundredth of a texel of 32 would be 3e-4
+        }
+    }
+    std::vector<Vec4> sun;
+    for (const double e : elevations)
         for (const double horizon : {0., -0.0018, -0.19})
             for (const double radius : {0., 0.0046}) {
                 const double range = std::asinh((pi / 2 - horizon + radius) / physics::SunTable::elevationScale);
                 sun.push_back({static_cast<float>(e), static_cast<float>(horizon), static_cast<float>(radius), static_cast<float>(1 / range)});
             }
-    }
-    auto values = evaluate(context->api(), "lib/sun.glsl", "momentAxis(x.x, x.y)", moments);
-    for (std::size_t i = 0; i < moments.size(); ++i) {
-        INFO("elevation " << moments[i][0]);
-        CHECK(double(values[i]) == Approx(grid.sunPosition(double(moments[i][0])) / 32).margin(1e-6)); // a hundredth of a texel of 32 would be 3e-4
-    }
-    values = evaluate(context->api(), "lib/sun.glsl", "sunAxis(x.x, x.y, x.z, x.w)", sun);
+    const auto values = evaluate(context->api(), "lib/sun.glsl", "sunAxis(x.x, x.y, x.z, x.w)", sun);
     for (std::size_t i = 0; i < sun.size(); ++i) {
         const double x = std::max(0., double(sun[i][0]) - double(sun[i][1]) + double(sun[i][2]));
         INFO("elevation " << sun[i][0] << " horizon " << sun[i][1]);
