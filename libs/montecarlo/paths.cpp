@@ -13,6 +13,11 @@ namespace
 using base::pi;
 
 constexpr double plainShare = 0.5; // of events placed by optical depth alone; bounds the guide's weights by 2
+// Weight from which a path no longer follows the guide. In clouds a path has dozens of events; the product of as many guided weights would
+// have a tail so long that the mean of any number of paths misses it.
+constexpr double heavy = 2;
+constexpr double aimedShare = 0.15; // of directions after a scattering that are drawn about the Sun
+constexpr double peaked = 15;       // forward value of a phase function, in units of the isotropic one, worth aiming for
 
 } // namespace
 
@@ -21,7 +26,7 @@ PathTracer::PathTracer(const Air& air, const Scene& scene, Orders orders) : air_
     firstRay_ = rayFrom(air_.profile().planetRadius(), scene_.camera, scene_.view);
     air_.profile().trace(firstRay_, firstLeg_);
     // The ground in direct view is a layer of its own: the first event is in the air.
-    prepare(scene_.camera, scene_.view, firstRay_, firstLeg_, 0, firstChoice_);
+    prepare(scene_.camera, scene_.view, firstRay_, firstLeg_, 0, true, firstChoice_);
 }
 
 double PathTracer::batchMean(Random& random, int paths)
@@ -44,7 +49,7 @@ double PathTracer::batchMean(Random& random, int paths)
 }
 
 void PathTracer::prepare(const Place& place, Vec direction, const Ray& ray, const Leg& leg, double groundAlbedo,
-                         Choice& choice) const
+                         bool guide, Choice& choice) const
 {
     const double radius = air_.profile().planetRadius();
     const double upSun = (radius + place.altitude) * dot(place.up, scene_.sun.centre());
@@ -77,10 +82,11 @@ void PathTracer::prepare(const Place& place, Vec direction, const Ray& ray, cons
     choice.possible = plain > 0;
     if (!choice.possible)
         return;
-    const double share = guided > 0 ? plainShare : 1.0;
+    const bool follow = guide && guided > 0;
+    const double share = follow ? plainShare : 1.0;
     double sum = 0;
     for (std::size_t i = 0; i < choice.weight.size(); ++i) {
-        const double density = share / plain + (guided > 0 ? (1 - share) * choice.weight[i] / guided : 0);
+        const double density = share / plain + (follow ? (1 - share) * choice.weight[i] / guided : 0);
         sum += choice.cumulative[i] * density;
         choice.cumulative[i] = sum;
         choice.weight[i] = 1 / density;
@@ -161,6 +167,21 @@ Vec scatteredDirection(const Air& air, Vec direction, const Local& local, double
     return turned(direction, std::cos(sample.angle), std::sin(sample.angle), 2 * pi * u2);
 }
 
+Vec PathTracer::nextDirection(Vec direction, double u1, double u2, Random& random, double& weight, double& aim) const
+{
+    const bool aims = 4 * pi * air_.scatteredAt(local_, 0) > peaked * local_.bright;
+    const Vec sun = scene_.sun.centre();
+    const bool aimed = aims && random.uniform() < aimedShare;
+    const Vec next = scatteredDirection(air_, aimed ? sun : direction, local_, u1, u2, weight);
+    if (aims && weight > 0) {
+        // Either way might have led here: the balance heuristic.
+        const double scattered = air_.scatteredAt(local_, angleBetween(next, direction));
+        aim = scattered / ((1 - aimedShare) * scattered + aimedShare * air_.scatteredAt(local_, angleBetween(next, sun)));
+        weight *= aim;
+    }
+    return next;
+}
+
 double PathTracer::path(Random& random, const Decisions& decisions)
 {
     if (!firstChoice_.possible)
@@ -181,18 +202,19 @@ double PathTracer::path(Random& random, const Decisions& decisions)
         if (order == orders_.last)
             return radiance;
 
+        double aim = 1; // the factor of the weight that only says how likely this direction was made
         const double u1 = order == 1 ? decisions[1] : random.uniform();
         const double u2 = order == 1 ? decisions[2] : random.uniform();
         if (onGround) // Lambert's law: the sine squared is uniform. The albedo is in the weight already.
             direction = turned(place.up, std::sqrt(1 - u1), std::sqrt(u1), 2 * pi * u2);
         else
-            direction = scatteredDirection(air_, direction, local_, u1, u2, weight);
+            direction = nextDirection(direction, u1, u2, random, weight, aim);
         if (!(weight > 0))
             return radiance;
 
         const Ray ray = rayFrom(radius, place, direction);
         air_.profile().trace(ray, leg_);
-        prepare(place, direction, ray, leg_, air_.groundAlbedo(), choice_);
+        prepare(place, direction, ray, leg_, air_.groundAlbedo(), weight < heavy, choice_);
         if (!choice_.possible)
             return radiance;
         onGround = advance(place, direction, ray, leg_, choice_, order == 1 ? decisions[3] : random.uniform(), weight);
@@ -200,10 +222,10 @@ double PathTracer::path(Random& random, const Decisions& decisions)
         // Russian roulette once events are being counted.
         if (order < orders_.first)
             reference = weight;
-        else if (weight < rouletteThreshold * reference) {
-            if (random.uniform() * rouletteThreshold * reference >= weight)
+        else if (const double judged = weight / aim, least = rouletteThreshold * reference; judged < least) {
+            if (random.uniform() * least >= judged)
                 return radiance;
-            weight = rouletteThreshold * reference;
+            weight = least * aim;
         }
     }
 }

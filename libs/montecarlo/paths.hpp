@@ -42,12 +42,16 @@ private:
         std::vector<double> weight;     // what an event there stands for
         bool possible = false;
     };
-    void prepare(const Place& place, Vec direction, const Ray& ray, const Leg& leg, double groundAlbedo,
+    void prepare(const Place& place, Vec direction, const Ray& ray, const Leg& leg, double groundAlbedo, bool guide,
                  Choice& choice) const;
     /// Moves to the next event; returns whether it is on the ground. Multiplies `weight`.
     bool advance(Place& place, Vec direction, const Ray& ray, const Leg& leg, const Choice& choice, double u,
                  double& weight) const;
     double path(Random& random, const Decisions& decisions);
+    /// Direction after a scattering. In peaked air some are drawn about the Sun, as if the light had come from there: else sunlight is met in
+    /// rare bright flashes, of which the standard error knows nothing (Buras, Mayer 2011, J. Quant. Spectrosc. Radiat. Transfer 112, 434).
+    ///   aim  set to the factor of the weight that this takes, at most 1 / (1 - the share drawn so)
+    Vec nextDirection(Vec direction, double u1, double u2, Random& random, double& weight, double& aim) const;
     /// A point of the solar disc as a place sees it; nothing where the Moon hides it.
     std::optional<Vec> sunPoint(const Place& place, Random& random) const;
     double sunlightAtAir(const Place& place, Vec direction, const Local& local, Random& random) const;

@@ -36,7 +36,6 @@ double sunScaleFor(const double sunset)
     return low;
 }
 
-
 } // namespace
 
 MomentGrid::MomentGrid(const Profile& profile, const std::vector<double>& largestExtinction, const int altitudeCount,
