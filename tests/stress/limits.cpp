@@ -91,7 +91,7 @@ TEST_CASE("a planet of 400 metres has the sky of the Earth, and so has one of 70
 TEST_CASE("haze from thin to thick that does not absorb, over white ground: all light comes back")
 {
     auto settings = coarse(4);
-    settings.suns = 6;
+    settings.suns = 10;
     settings.groundDirections = settings.skyDirections = 8;
     settings.altitudes = 17;
     settings.nodes = 16;
@@ -99,8 +99,10 @@ TEST_CASE("haze from thin to thick that does not absorb, over white ground: all 
         const auto haze = sky::test::layer(depth, 1, 1, [](double angle) { return sky::test::henyeyGreenstein(0.5, angle); });
         const Moments moments = solved(haze, settings, depth > 0.5 ? 32 : 16);
         std::vector<double> field(harmonicCount(settings.degree));
-        for (int j = 3; j < settings.suns; ++j) {
+        for (int j = 0; j < settings.suns; ++j) {
             const double muSun = std::sin(moments.grid.sunElevation(j));
+            if (muSun < 0.3) // grazing light is spent within a part of the first level of grids as coarse as this
+                continue;
             moments.interpolate(1000, muSun, field.data());
             const double escape = -field[harmonicIndex(1, 0)] / std::sqrt(3 / (4 * pi)); // of an area, upwards; Y_10 = sqrt(3 / 4 pi) mu
             INFO("depth " << depth << " muSun " << muSun);
