@@ -45,8 +45,8 @@ int main(int argc, char** argv)
         std::printf("regime     rows   rms error     +/-       mean error   noise of the judge\n");
         for (int i = 0; i < 3; ++i)
             if (const auto& s = sums[i]; s.rows() > 0)
-                std::printf("%-9s %5d   %7.3f %%   %5.3f %%   %+8.3f %%   %7.3f %%\n", bench::regimeNames[i], s.rows(),
-                            100 * s.rms(), 100 * s.uncertainty(), 100 * s.mean(), 100 * s.noise());
+                std::printf("%-9s %5d   %7.3f %%   %5.3f %%   %+8.3f %%   %7.3f %%\n", bench::regimeNames[i], s.rows(), 100 * s.rms(),
+                            100 * s.uncertainty(), 100 * s.mean(), 100 * s.noise());
     } catch (const Error& error) {
         std::fprintf(stderr, "bench_accuracy: %s\n", error.what());
         return error.inputMustChange() ? 2 : 1;

@@ -17,8 +17,8 @@
 #include "solver/medium_tables.hpp"
 #include "solver/plan.hpp"
 #include "solver/quality.hpp"
-#include <CLI/CLI.hpp>
 #include <chrono>
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <sys/resource.h>
 
@@ -59,7 +59,8 @@ Field compute(const gl::Api& api, const physics::Medium& medium, const solver::O
     const physics::Profile profile(medium);
     Field field{physics::makeOptics(medium, settings.degree, settings.truncatePeaks), {}, 0};
     const physics::SunTable sun(profile, field.optics, medium.sunAngularRadius);
-    const physics::MomentGrid grid(profile, solver::largestExtinctions(field.optics), settings.altitudes, settings.suns, medium.sunAngularRadius);
+    const physics::MomentGrid grid(profile, solver::largestExtinctions(field.optics), settings.altitudes, settings.suns,
+                                   medium.sunAngularRadius);
     field.moments = iterate(api, {medium, profile, field.optics, sun}, grid, settings, limit, false, [](double) {}).total;
     field.levels = grid.altitudeCount();
     quickest.wall = std::min(quickest.wall, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
@@ -75,12 +76,10 @@ std::vector<Point> around(const std::string& preset, const physics::MomentSettin
         std::vector<int physics::MomentSettings::*> fields;
     };
     using M = physics::MomentSettings;
-    const std::vector<Axis> axes{{"altitudes", {&M::altitudes}},
-                                 {"suns", {&M::suns}},
-                                 {"degree", {&M::degree}},
-                                 {"directions", {&M::groundDirections, &M::limbDirections, &M::skyDirections, &M::azimuths}},
-                                 {"nodes", {&M::nodes}},
-                                 {"directNodes", {&M::directNodes}}};
+    const std::vector<Axis> axes{
+        {"altitudes", {&M::altitudes}}, {"suns", {&M::suns}},
+        {"degree", {&M::degree}},       {"directions", {&M::groundDirections, &M::limbDirections, &M::skyDirections, &M::azimuths}},
+        {"nodes", {&M::nodes}},         {"directNodes", {&M::directNodes}}};
     std::vector<Point> points{{preset, s}};
     for (const Axis& axis : axes)
         for (const double factor : {2 / 3., 1.5}) {
@@ -95,10 +94,7 @@ std::vector<Point> around(const std::string& preset, const physics::MomentSettin
 struct World {
     atmo::Description description;
     physics::Medium medium;
-    solver::OrderLimit limit() const
-    {
-        return {std::max(2, description.scatteringOrders), description.allScatteringOrders, 0};
-    }
+    solver::OrderLimit limit() const { return {std::max(2, description.scatteringOrders), description.allScatteringOrders, 0}; }
 };
 
 World readWorld(const gl::Api& api, const std::string& path, const std::string& without, const std::string& orders)
@@ -163,7 +159,8 @@ void front(const gl::Api& api, const std::string& name, const World& world, cons
 }
 
 /// The rows as that preset answers them, without noise: what is left is the error of coarser grids.
-std::vector<bench::ReferenceRow> answeredBy(const gl::Api& api, const std::string& preset, const World& world, std::vector<bench::ReferenceRow> rows)
+std::vector<bench::ReferenceRow> answeredBy(const gl::Api& api, const std::string& preset, const World& world,
+                                            std::vector<bench::ReferenceRow> rows)
 {
     Seconds ignored;
     const Field field = compute(api, world.medium, world.limit(), solver::qualityFor(preset, world.medium).moments, ignored);

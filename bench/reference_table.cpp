@@ -9,7 +9,7 @@ namespace sky::bench {
 namespace {
 constexpr double pi = 3.14159265358979323846, degree = pi / 180;
 constexpr double usableNoise = 0.05;
-}
+} // namespace
 
 std::vector<ReferenceRow> readReference(const std::string& path)
 {
@@ -27,7 +27,9 @@ std::vector<ReferenceRow> readReference(const std::string& path)
         if (c.size() < 11)
             throw FileError("\"" + path + "\": expected 11 columns in \"" + line + "\".");
         const ReferenceRow row{{std::stod(c[2]), std::stod(c[3]) * degree, std::stod(c[4]) * degree, std::stod(c[5]) * degree},
-                               std::stod(c[6]), std::stod(c[7]) + std::stod(c[8]), std::stod(c[9])};
+                               std::stod(c[6]),
+                               std::stod(c[7]) + std::stod(c[8]),
+                               std::stod(c[9])};
         if (row.noise <= usableNoise * row.radiance)
             rows.push_back(row);
     }

@@ -6,8 +6,7 @@ bool printDevices(const gl::HeadlessOptions& options, std::ostream& to)
 {
     const std::vector<gl::DeviceInfo> devices = gl::listDevices(options);
     if (devices.empty()) {
-        to << "EGL names no devices here. OSMesa, which has none to choose from, may still work: see calcmysky doctor."
-           << std::endl;
+        to << "EGL names no devices here. OSMesa, which has none to choose from, may still work: see calcmysky doctor." << std::endl;
         return false;
     }
     for (const gl::DeviceInfo& device : devices) {

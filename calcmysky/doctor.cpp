@@ -82,21 +82,17 @@ void printProgram()
 #ifdef __VERSION__
               << ", compiler " << __VERSION__
 #endif
-              << "\nLibraries: OpenEXR " OPENEXR_VERSION_STRING ", Imath " IMATH_VERSION_STRING ", CLI11 " CLI11_VERSION
-                 ", nlohmann/json "
-              << NLOHMANN_JSON_VERSION_MAJOR << "." << NLOHMANN_JSON_VERSION_MINOR << "." << NLOHMANN_JSON_VERSION_PATCH
-              << "\n\n";
+              << "\nLibraries: OpenEXR " OPENEXR_VERSION_STRING ", Imath " IMATH_VERSION_STRING ", CLI11 " CLI11_VERSION ", nlohmann/json "
+              << NLOHMANN_JSON_VERSION_MAJOR << "." << NLOHMANN_JSON_VERSION_MINOR << "." << NLOHMANN_JSON_VERSION_PATCH << "\n\n";
 }
 
 void printLimits(const gl::Api& api)
 {
     const gl::Limits& limits = api.limits();
-    std::cout << "    textures up to " << limits.textureSize << " x " << limits.textureSize << ", 3D up to "
-              << limits.texture3dSize << "; storage buffers up to "
-              << formatSize(static_cast<std::size_t>(limits.storageBlockSize)) << "\n    work groups of "
-              << limits.workGroupInvocations << " invocations with "
-              << formatSize(static_cast<std::size_t>(limits.sharedMemory)) << " shared, " << limits.workGroupCount[0]
-              << " groups along an axis\n";
+    std::cout << "    textures up to " << limits.textureSize << " x " << limits.textureSize << ", 3D up to " << limits.texture3dSize
+              << "; storage buffers up to " << formatSize(static_cast<std::size_t>(limits.storageBlockSize)) << "\n    work groups of "
+              << limits.workGroupInvocations << " invocations with " << formatSize(static_cast<std::size_t>(limits.sharedMemory))
+              << " shared, " << limits.workGroupCount[0] << " groups along an axis\n";
 }
 
 /// Tries one backend and prints what came of it. Nothing where it can't be used, else whether it is a CPU.
@@ -172,9 +168,6 @@ private:
 
 } // namespace
 
-std::unique_ptr<Subcommand> makeDoctor()
-{
-    return std::make_unique<Doctor>();
-}
+std::unique_ptr<Subcommand> makeDoctor() { return std::make_unique<Doctor>(); }
 
 } // namespace sky::cli

@@ -12,10 +12,7 @@ std::string partNames()
     return names;
 }
 
-std::string versionText()
-{
-    return "calcmysky " CALCMYSKY_VERSION;
-}
+std::string versionText() { return "calcmysky " CALCMYSKY_VERSION; }
 
 std::string helpHeader()
 {
@@ -52,10 +49,7 @@ std::string helpText(const CLI::App& app)
     return text;
 }
 
-HelpFormatter::HelpFormatter()
-{
-    column_width(34);
-}
+HelpFormatter::HelpFormatter() { column_width(34); }
 
 std::string HelpFormatter::make_usage(const CLI::App* app, std::string name) const
 {

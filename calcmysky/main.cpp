@@ -20,8 +20,8 @@ int main(int argc, char** argv)
         const std::string text{std::istreambuf_iterator<char>(std::cin), {}};
         return atmo::parse(text, "<standard input>", ".", options);
     };
-    services.plan = [](const atmo::Description& description, const solver::Options& options,
-                       const gl::HeadlessOptions& openGl, solver::Progress& progress) {
+    services.plan = [](const atmo::Description& description, const solver::Options& options, const gl::HeadlessOptions& openGl,
+                       solver::Progress& progress) {
         if (!options.qualityByTolerance)
             return solver::plan(description, options);
         gl::HeadlessContext context(openGl);
@@ -29,9 +29,8 @@ int main(int argc, char** argv)
         const auto medium = solver::evaluateMedium(description, context.api(), warnings);
         return solver::plan(description, solver::settled(options, medium, progress));
     };
-    services.solve = [](const atmo::Description& description, const solver::Options& options,
-                        const gl::HeadlessOptions& openGl, const std::filesystem::path& outDir,
-                        solver::Progress& progress) {
+    services.solve = [](const atmo::Description& description, const solver::Options& options, const gl::HeadlessOptions& openGl,
+                        const std::filesystem::path& outDir, solver::Progress& progress) {
         gl::HeadlessContext context(openGl);
         solver::solve(description, options, context, outDir, progress);
     };

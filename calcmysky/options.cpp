@@ -20,8 +20,7 @@ struct Typed {
     std::string description, outDir;
     std::optional<std::string> only, skip, altitudes, quality, tolerance, precision, maxMemory, device;
     std::string progress = "auto", backend = "auto", extendSpectra = "error";
-    bool radiance = false, noEclipsed = false, noTextures = false, validate = false, dryRun = false,
-         listDevices = false;
+    bool radiance = false, noEclipsed = false, noTextures = false, validate = false, dryRun = false, listDevices = false;
     bool pointSampled = false, quiet = false, debug = false, debugFull = false;
     solver::Options save; ///< only its save... fields
 };
@@ -29,21 +28,17 @@ struct Typed {
 void addModelOptions(CLI::App& app, Typed& typed)
 {
     const std::string model = "What to write";
-    app.add_option("description", typed.description, "The atmosphere: a .atmo file, or - for standard input")
-        ->option_text("FILE");
+    app.add_option("description", typed.description, "The atmosphere: a .atmo file, or - for standard input")->option_text("FILE");
     app.add_option("--out-dir", typed.outDir, "Directory of the model; an old model there is replaced at the very end")
         ->option_text("DIR")
         ->group(model);
     app.add_flag("--radiance", typed.radiance, "Spectral radiance instead of XYZ and scotopic luminance")->group(model);
-    app.add_option("--only", typed.only, "Write these parts alone, named below and separated by commas")
-        ->option_text("LIST")
-        ->group(model);
+    app.add_option("--only", typed.only, "Write these parts alone, named below and separated by commas")->option_text("LIST")->group(model);
     app.add_option("--skip", typed.skip, "Leave these parts out")->option_text("LIST")->group(model);
     app.add_option("--altitudes", typed.altitudes, "Bake these altitude layers only, counted from 0 at the ground")
         ->option_text("A..B")
         ->group(model);
-    app.add_flag("--no-eds-tex", typed.noEclipsed, "No eclipsed double scattering table, like --skip eclipsed")
-        ->group(model);
+    app.add_flag("--no-eds-tex", typed.noEclipsed, "No eclipsed double scattering table, like --skip eclipsed")->group(model);
     app.add_option("--texture-save-precision", typed.precision,
                    "Significand bits kept in 3D textures, 1 to 24 (all); fewer make\nsmaller files. Default " +
                        std::to_string(solver::Options{}.texturePrecisionBits))
@@ -51,15 +46,13 @@ void addModelOptions(CLI::App& app, Typed& typed)
         ->group(model);
 
     const std::string accuracy = "How accurate, with what means";
-    app.add_option("--quality", typed.quality, "draft, normal (the default), fine or reference")
-        ->option_text("NAME")
-        ->group(accuracy);
-    app.add_option("--tolerance", typed.tolerance,
-                   "Pick the cheapest quality predicted to err by less than this part.\nBeside --quality: drop the orders and harmonics that change less")
+    app.add_option("--quality", typed.quality, "draft, normal (the default), fine or reference")->option_text("NAME")->group(accuracy);
+    app.add_option(
+           "--tolerance", typed.tolerance,
+           "Pick the cheapest quality predicted to err by less than this part.\nBeside --quality: drop the orders and harmonics that change less")
         ->option_text("X")
         ->group(accuracy);
-    app.add_flag("--point-sampled-spectra", typed.pointSampled,
-                 "Read spectra in files at the wavelengths, not averaged over the bands")
+    app.add_flag("--point-sampled-spectra", typed.pointSampled, "Read spectra in files at the wavelengths, not averaged over the bands")
         ->group(accuracy);
     app.add_option("--extend-spectra", typed.extendSpectra,
                    "Beyond the ends of a spectrum's file: zero, end (its last value)\nor error (the default)")
@@ -73,8 +66,7 @@ void addModelOptions(CLI::App& app, Typed& typed)
 void addRunOptions(CLI::App& app, Typed& typed)
 {
     const std::string look = "Look before you run";
-    app.add_flag("--dry-run", typed.dryRun, "List what would be computed and skipped and why; memory, disk, time")
-        ->group(look);
+    app.add_flag("--dry-run", typed.dryRun, "List what would be computed and skipped and why; memory, disk, time")->group(look);
     app.add_flag("--validate", typed.validate, "Only read the description and compile its code")->group(look);
     app.add_flag("--list-devices", typed.listDevices, "List the devices that --device takes")->group(look);
 
@@ -85,12 +77,8 @@ void addRunOptions(CLI::App& app, Typed& typed)
     app.add_flag("-q,--quiet", typed.quiet, "Print errors only")->group(talk);
 
     const std::string opengl = "OpenGL";
-    app.add_option("--gl", typed.backend, "auto, egl or osmesa; auto tries EGL, then OSMesa")
-        ->option_text("BACKEND")
-        ->group(opengl);
-    app.add_option("--device", typed.device, "The device of that number in --list-devices")
-        ->option_text("N")
-        ->group(opengl);
+    app.add_option("--gl", typed.backend, "auto, egl or osmesa; auto tries EGL, then OSMesa")->option_text("BACKEND")->group(opengl);
+    app.add_option("--device", typed.device, "The device of that number in --list-devices")->option_text("N")->group(opengl);
     app.add_flag("--opengl-debug", typed.debug, "Print the driver's errors and warnings")->group(opengl);
     app.add_flag("--opengl-debug-full", typed.debugFull, "Print everything that the driver says")->group(opengl);
 }
@@ -98,21 +86,15 @@ void addRunOptions(CLI::App& app, Typed& typed)
 void addDebuggingOptions(CLI::App& app, Typed& typed)
 {
     const std::string debugging = "For developers: intermediate tables";
-    app.add_flag("--no-save-tex", typed.noTextures, "No textures, only what is quick to compute, like --only moments")
-        ->group(debugging);
-    app.add_flag("--save-irradiance", typed.save.saveIrradianceOrders, "Irradiance of the ground, each order")
-        ->group(debugging);
-    app.add_flag("--save-scat-density", typed.save.saveScatteringDensity, "Scattering density, each order")
-        ->group(debugging);
+    app.add_flag("--no-save-tex", typed.noTextures, "No textures, only what is quick to compute, like --only moments")->group(debugging);
+    app.add_flag("--save-irradiance", typed.save.saveIrradianceOrders, "Irradiance of the ground, each order")->group(debugging);
+    app.add_flag("--save-scat-density", typed.save.saveScatteringDensity, "Scattering density, each order")->group(debugging);
     app.add_flag("--save-scat-density2-from-ground", typed.save.saveScatteringDensity2FromGround,
                  "Scattering density of order 2 from light off the ground")
         ->group(debugging);
-    app.add_flag("--save-delta-scattering", typed.save.saveDeltaScattering, "Radiance of each order alone")
-        ->group(debugging);
-    app.add_flag("--save-accum-scattering", typed.save.saveAccumulatedScattering, "Radiance summed up to each order")
-        ->group(debugging);
-    app.add_flag("--save-light-pollution", typed.save.saveLightPollution, "Light pollution, each order")
-        ->group(debugging);
+    app.add_flag("--save-delta-scattering", typed.save.saveDeltaScattering, "Radiance of each order alone")->group(debugging);
+    app.add_flag("--save-accum-scattering", typed.save.saveAccumulatedScattering, "Radiance summed up to each order")->group(debugging);
+    app.add_flag("--save-light-pollution", typed.save.saveLightPollution, "Light pollution, each order")->group(debugging);
 }
 
 /// All long and short names that `app` understands.
@@ -144,8 +126,7 @@ void refuseLeftovers(const CLI::App& app, const std::vector<std::string>& subcom
     if (word.size() > 1 && word.front() == '-')
         throw UsageError("There is no option `" + word + "`." + suggestion(word, known) + " See calcmysky --help.");
     const std::string first = app.get_option("description")->as<std::string>();
-    throw UsageError("One description at a time: `" + first + "` and `" + word + "` were given." +
-                     suggestion(first, subcommandNames));
+    throw UsageError("One description at a time: `" + first + "` and `" + word + "` were given." + suggestion(first, subcommandNames));
 }
 
 /// CLI11's own complaints, as sentences.
@@ -175,8 +156,7 @@ std::set<solver::Part> chosenParts(const Typed& typed)
         skipped = readParts("--skip", *typed.skip);
     for (const Part part : skipped)
         if (typed.only && parts.contains(part))
-            throw UsageError("--only asks for " + nameOf(part) +
-                             " and --skip leaves it out: drop it from one of them.");
+            throw UsageError("--only asks for " + nameOf(part) + " and --skip leaves it out: drop it from one of them.");
     if (typed.noEclipsed && typed.only && parts.contains(Part::Eclipsed))
         throw UsageError("--only asks for eclipsed and --no-eds-tex leaves it out: drop one of them.");
     if (typed.noEclipsed)
@@ -229,9 +209,8 @@ atmo::ParseOptions parsingOptions(const Typed& typed)
     using atmo::OutsideRange;
     atmo::ParseOptions options;
     options.resampling = typed.pointSampled ? atmo::Resampling::Point : atmo::Resampling::BandAverage;
-    options.outside =
-        std::vector{OutsideRange::Zero, OutsideRange::EndValue,
-                    OutsideRange::Error}[readChoice("--extend-spectra", typed.extendSpectra, {"zero", "end", "error"})];
+    options.outside = std::vector{OutsideRange::Zero, OutsideRange::EndValue,
+                                  OutsideRange::Error}[readChoice("--extend-spectra", typed.extendSpectra, {"zero", "end", "error"})];
     return options;
 }
 
@@ -268,8 +247,7 @@ Request parseCommandLine(int argc, const char* const* argv, const std::vector<st
     for (const auto& subcommand : subcommands) {
         added.emplace_back(subcommand->addTo(app), subcommand.get());
         added.back().first->fallthrough()->allow_extras();
-        added.back().first->footer(
-            "The options about OpenGL, --progress and --quiet work here too: see calcmysky --help.");
+        added.back().first->footer("The options about OpenGL, --progress and --quiet work here too: see calcmysky --help.");
         names.push_back(added.back().first->get_name());
     }
     app.footer(helpFooter()); // after the subcommands, which would inherit it
@@ -293,16 +271,14 @@ Request parseCommandLine(int argc, const char* const* argv, const std::vector<st
     request.gl = openglOptions(typed);
     request.quiet = typed.quiet;
     using enum ProgressStyle;
-    request.progress = std::vector{Automatic, Bar, Json,
-                                   None}[readChoice("--progress", typed.progress, {"auto", "bar", "json", "none"})];
+    request.progress = std::vector{Automatic, Bar, Json, None}[readChoice("--progress", typed.progress, {"auto", "bar", "json", "none"})];
     if (request.quiet && (request.progress == Bar || request.progress == Json))
         throw UsageError("--quiet and --progress " + typed.progress + " contradict each other: give one of them.");
     for (const auto& [sub, subcommand] : added)
         if (sub->parsed()) {
             if (!typed.description.empty())
-                throw UsageError("`" + sub->get_name() +
-                                 "` takes no description; to compute a file of that name, write ./" + sub->get_name() +
-                                 ".");
+                throw UsageError("`" + sub->get_name() + "` takes no description; to compute a file of that name, write ./" +
+                                 sub->get_name() + ".");
             request.action = Action::Subcommand;
             request.subcommand = subcommand;
             return request;

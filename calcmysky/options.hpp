@@ -29,7 +29,6 @@ struct Request {
 
 /// Understands the arguments.
 ///   throws  UsageError: one sentence, with a suggestion for a misspelt word
-Request parseCommandLine(int argc, const char* const* argv,
-                         const std::vector<std::unique_ptr<Subcommand>>& subcommands);
+Request parseCommandLine(int argc, const char* const* argv, const std::vector<std::unique_ptr<Subcommand>>& subcommands);
 
 } // namespace sky::cli

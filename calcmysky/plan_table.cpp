@@ -17,8 +17,8 @@ void printRow(const Widths& widths, const solver::PlanItem& item, const std::str
 {
     const std::string time = item.seconds > 0 ? formatDuration(item.seconds) : "-";
     to << std::left << std::setw(widths.what) << item.what << "  " << std::setw(widths.verdict) << verdict << std::right
-       << std::setw(widths.time) << time << std::setw(widths.memory) << formatSize(item.memoryBytes)
-       << std::setw(widths.disk) << formatSize(item.diskBytes);
+       << std::setw(widths.time) << time << std::setw(widths.memory) << formatSize(item.memoryBytes) << std::setw(widths.disk)
+       << formatSize(item.diskBytes);
     if (!item.why.empty())
         to << "  " << item.why;
     to << "\n";
@@ -39,8 +39,8 @@ void printPlan(const std::vector<solver::PlanItem>& plan, std::ostream& to)
         total.seconds += item.seconds;
     }
     to << std::left << std::setw(widths.what) << "what"
-       << "  " << std::setw(widths.verdict) << "" << std::right << std::setw(widths.time) << "time"
-       << std::setw(widths.memory) << "memory" << std::setw(widths.disk) << "disk"
+       << "  " << std::setw(widths.verdict) << "" << std::right << std::setw(widths.time) << "time" << std::setw(widths.memory) << "memory"
+       << std::setw(widths.disk) << "disk"
        << "  why\n";
     for (const solver::PlanItem& item : plan)
         printRow(widths, item, item.computed ? "computed" : "skipped", to);

@@ -36,8 +36,7 @@ atmo::Description read(const Request& request, const Services& services)
     const int layers = description.scatteringSize.altitude;
     if (request.solver.altitudeLayers && request.solver.altitudeLayers->second >= layers)
         throw UsageError("--altitudes: the description has " + std::to_string(layers) + " altitude layers, 0.." +
-                         std::to_string(layers - 1) + "; there is no layer " +
-                         std::to_string(request.solver.altitudeLayers->second) + ".");
+                         std::to_string(layers - 1) + "; there is no layer " + std::to_string(request.solver.altitudeLayers->second) + ".");
     return description;
 }
 
@@ -49,20 +48,16 @@ void compute(const Request& request, const Services& services, Reporter& reporte
     services.solve(read(request, services), request.solver, request.gl, request.outDir, reporter);
     reporter.finished();
     if (!request.quiet)
-        std::cout << request.outDir.string() << ": " << formatSize(sizeOfDirectory(request.outDir)) << " in "
-                  << formatDuration(clock()) << std::endl;
+        std::cout << request.outDir.string() << ": " << formatSize(sizeOfDirectory(request.outDir)) << " in " << formatDuration(clock())
+                  << std::endl;
 }
 
 int perform(const Request& request, const Services& services, Reporter& reporter)
 {
     switch (request.action) {
-    case Action::ShowText:
-        std::cout << request.text << std::flush;
-        return exitDone;
-    case Action::ListDevices:
-        return printDevices(request.gl, std::cout) ? exitDone : exitFailure;
-    case Action::Subcommand:
-        return request.subcommand->run(request);
+    case Action::ShowText: std::cout << request.text << std::flush; return exitDone;
+    case Action::ListDevices: return printDevices(request.gl, std::cout) ? exitDone : exitFailure;
+    case Action::Subcommand: return request.subcommand->run(request);
     case Action::DryRun:
         printPlan(services.plan(read(request, services), request.solver, request.gl, reporter), std::cout);
         return exitDone;
@@ -71,9 +66,7 @@ int perform(const Request& request, const Services& services, Reporter& reporter
         if (!request.quiet)
             std::cout << request.description << ": fine" << std::endl;
         return exitDone;
-    case Action::Compute:
-        compute(request, services, reporter);
-        return exitDone;
+    case Action::Compute: compute(request, services, reporter); return exitDone;
     }
     return exitFailure;
 }

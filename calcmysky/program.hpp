@@ -16,8 +16,8 @@ struct Services {
     std::function<std::vector<solver::PlanItem>(const atmo::Description&, const solver::Options&, const gl::HeadlessOptions&,
                                                 solver::Progress&)>
         plan;
-    std::function<void(const atmo::Description&, const solver::Options&, const gl::HeadlessOptions&,
-                       const std::filesystem::path& outDir, solver::Progress&)>
+    std::function<void(const atmo::Description&, const solver::Options&, const gl::HeadlessOptions&, const std::filesystem::path& outDir,
+                       solver::Progress&)>
         solve;
     std::function<void(const atmo::Description&, const gl::HeadlessOptions&)> validate;
 };

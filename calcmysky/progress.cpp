@@ -14,10 +14,7 @@
 
 namespace sky::cli {
 
-bool Reporter::cancelled() const
-{
-    return interrupted();
-}
+bool Reporter::cancelled() const { return interrupted(); }
 
 namespace {
 
@@ -66,8 +63,7 @@ public:
     void warning(const std::string& sentence) override
     {
         if (!quiet_)
-            to_.stream << "calcmysky: " << (to_.colour ? "\033[33mwarning:\033[0m " : "warning: ") << sentence
-                       << std::endl;
+            to_.stream << "calcmysky: " << (to_.colour ? "\033[33mwarning:\033[0m " : "warning: ") << sentence << std::endl;
     }
     void note(const std::string& text) override { to_.stream << text << std::endl; }
     void remark(const std::string& sentence) override
@@ -142,9 +138,8 @@ private:
         const int full = static_cast<int>(std::lround(clock_.fraction() * cells));
         const long percent = std::lround(100 * clock_.fraction());
         std::string line = "[" + std::string(static_cast<std::size_t>(full), '#') +
-                           std::string(static_cast<std::size_t>(cells - full), '-') + "] " +
-                           (percent < 100 ? " " : "") + (percent < 10 ? " " : "") + std::to_string(percent) + " %  " +
-                           stage_;
+                           std::string(static_cast<std::size_t>(cells - full), '-') + "] " + (percent < 100 ? " " : "") +
+                           (percent < 10 ? " " : "") + std::to_string(percent) + " %  " + stage_;
         if (const auto left = clock_.remaining())
             line += ", " + formatDuration(std::ceil(*left)) + " left";
         to_.stream << '\r' << line.substr(0, static_cast<std::size_t>(width)) << "\033[K" << std::flush;
@@ -229,8 +224,7 @@ std::unique_ptr<Reporter> makeReporter(ProgressStyle style, bool quiet, Reporter
 ReporterSurroundings standardError()
 {
     const base::Stopwatch watch;
-    return {std::cerr, isTerminal(Stream::Error), wantsColour(Stream::Error),
-            [] { return terminalWidth(Stream::Error); },
+    return {std::cerr, isTerminal(Stream::Error), wantsColour(Stream::Error), [] { return terminalWidth(Stream::Error); },
             [watch] { return watch.seconds(); }};
 }
 

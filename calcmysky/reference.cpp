@@ -9,8 +9,8 @@
 
 #include "atmo/parse.hpp"
 #include "base/error.hpp"
-#include "model/medium_tables.hpp"
 #include "ground_light.hpp"
+#include "model/medium_tables.hpp"
 #include "progress.hpp"
 #include "reference_queries.hpp"
 #include "solver/medium_tables.hpp"
@@ -35,7 +35,9 @@ Atmosphere readModel(const std::string& directory)
 {
     const model::Model file = model::Model::open(directory);
     const auto& manifest = file.manifest();
-    return {manifest.name, model::readMedium(file), manifest.allScatteringOrders ? 0 : manifest.scatteringOrders,
+    return {manifest.name,
+            model::readMedium(file),
+            manifest.allScatteringOrders ? 0 : manifest.scatteringOrders,
             {manifest.moonRadius, manifest.sunDistance}};
 }
 
@@ -44,7 +46,8 @@ Atmosphere readDescription(const std::string& path, const gl::HeadlessOptions& o
     const atmo::Description description = atmo::parseFile(path);
     const gl::HeadlessContext context(openGl);
     std::vector<std::string> warnings;
-    Atmosphere result{{}, solver::evaluateMedium(description, context.api(), warnings),
+    Atmosphere result{{},
+                      solver::evaluateMedium(description, context.api(), warnings),
                       description.allScatteringOrders ? 0 : description.scatteringOrders,
                       {description.moonRadius, description.sunDistance}};
     for (const std::string& sentence : warnings)
@@ -59,14 +62,13 @@ public:
     {
         CLI::App* sub = app.add_subcommand("reference", "Compute sky radiances by Monte Carlo, slowly and independently");
         sub->add_option("atmosphere", atmosphere_, "A model's directory, or a .atmo file")->option_text("DIR|FILE");
-        sub->add_option("queries", queries_, "CSV: altitude_m, sza_deg, vza_deg, relaz_deg, lambda_nm; for eclipses moon_zenith_deg,\nmoon_azimuth_deg, earth_moon_distance_m")
+        sub->add_option(
+               "queries", queries_,
+               "CSV: altitude_m, sza_deg, vza_deg, relaz_deg, lambda_nm; for eclipses moon_zenith_deg,\nmoon_azimuth_deg, earth_moon_distance_m")
             ->option_text("QUERIES.csv");
-        sub->add_option("--grid", grid_, "default: the places that verify looks at, in place of a file")
-            ->option_text("NAME");
-        sub->add_option("-o,--output", output_, "Where the table goes, in place of standard output")
-            ->option_text("OUT.csv");
-        sub->add_option("--relative-error", relativeError_,
-                        "Standard error at which a row is done, a part of its radiance.\nDefault 0.001")
+        sub->add_option("--grid", grid_, "default: the places that verify looks at, in place of a file")->option_text("NAME");
+        sub->add_option("-o,--output", output_, "Where the table goes, in place of standard output")->option_text("OUT.csv");
+        sub->add_option("--relative-error", relativeError_, "Standard error at which a row is done, a part of its radiance.\nDefault 0.001")
             ->option_text("X");
         sub->add_option("--seconds", seconds_, "Time for all rows together; the noisiest get the most. Default: no limit")
             ->option_text("T");
@@ -74,8 +76,7 @@ public:
                         "Light of a glowing ground in place of the Sun's, as a share of its\nradiance: all, or "
                         "distance=M,radius=M[,azimuth=DEG] for a disc")
             ->option_text("all|DISC");
-        sub->add_option("--orders", orders_, "Scattering orders, or all. Default: those of the atmosphere")
-            ->option_text("N");
+        sub->add_option("--orders", orders_, "Scattering orders, or all. Default: those of the atmosphere")->option_text("N");
         sub->add_option("--seed", seed_, "Of the random numbers. Default 1")->option_text("N");
         return sub;
     }
@@ -103,8 +104,8 @@ public:
 
         const auto reporter = makeReporter(request.progress, request.quiet, standardError());
         reporter->stage("medium", 0);
-        Atmosphere atmosphere = std::filesystem::is_directory(atmosphere_) ? readModel(atmosphere_)
-                                                                           : readDescription(atmosphere_, request.gl, *reporter);
+        Atmosphere atmosphere =
+            std::filesystem::is_directory(atmosphere_) ? readModel(atmosphere_) : readDescription(atmosphere_, request.gl, *reporter);
         if (atmosphere.name.empty())
             atmosphere.name = nameFromPath();
         const int usualOrders = groundLight_.empty() ? atmosphere.orders : 0; // light pollution has all of them
@@ -168,9 +169,6 @@ private:
 
 } // namespace
 
-std::unique_ptr<Subcommand> makeReference()
-{
-    return std::make_unique<Reference>();
-}
+std::unique_ptr<Subcommand> makeReference() { return std::make_unique<Reference>(); }
 
 } // namespace sky::cli

@@ -61,8 +61,7 @@ std::optional<std::array<std::size_t, moonColumnNames.size()>> moonColumnsOf(con
     return columns;
 }
 
-double numberIn(const std::vector<std::string>& cells, const std::size_t column, const std::string& columnName,
-                const std::string& place)
+double numberIn(const std::vector<std::string>& cells, const std::size_t column, const std::string& columnName, const std::string& place)
 {
     const std::string cell = column < cells.size() ? cells[column] : "";
     double value = 0;
@@ -88,8 +87,8 @@ int wavelengthIndex(const double wavelengthNm, const std::vector<double>& wavele
 
 } // namespace
 
-std::vector<montecarlo::Query> readQueries(std::istream& file, const std::string& name,
-                                           const std::vector<double>& wavelengthsNm, const EclipseScale& scale)
+std::vector<montecarlo::Query> readQueries(std::istream& file, const std::string& name, const std::vector<double>& wavelengthsNm,
+                                           const EclipseScale& scale)
 {
     using base::degree;
     std::string line;
@@ -120,8 +119,8 @@ std::vector<montecarlo::Query> readQueries(std::istream& file, const std::string
             continue;
         for (std::size_t c = 0; c < moon.size(); ++c)
             moon[c] = numberIn(cells, (*moonColumns)[c], moonColumnNames[c], place);
-        queries.back().moon = montecarlo::MoonPlace{moon[MoonZenith] * degree, moon[MoonAzimuth] * degree,
-                                                    moon[MoonDistance], scale.moonRadius, scale.sunDistance};
+        queries.back().moon = montecarlo::MoonPlace{moon[MoonZenith] * degree, moon[MoonAzimuth] * degree, moon[MoonDistance],
+                                                    scale.moonRadius, scale.sunDistance};
     }
     return queries;
 }

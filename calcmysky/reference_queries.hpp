@@ -20,7 +20,7 @@ struct EclipseScale {
 ///   wavelengthsNm  those of the medium; a row must name one of them within 0.01 nm
 ///   name           of the file, for messages
 ///   throws         UsageError: file:line: what is wrong, what was expected
-std::vector<montecarlo::Query> readQueries(std::istream& file, const std::string& name,
-                                           const std::vector<double>& wavelengthsNm, const EclipseScale& scale);
+std::vector<montecarlo::Query> readQueries(std::istream& file, const std::string& name, const std::vector<double>& wavelengthsNm,
+                                           const EclipseScale& scale);
 
 } // namespace sky::cli

@@ -25,10 +25,7 @@ std::optional<Number> number(std::string_view text)
     return value;
 }
 
-std::string inQuotes(const std::string& text)
-{
-    return "`" + text + "`";
-}
+std::string inQuotes(const std::string& text) { return "`" + text + "`"; }
 
 std::string joined(const std::vector<std::string>& words)
 {
@@ -47,10 +44,7 @@ std::string fixed(double value, int digits)
 }
 
 /// At least two digits.
-std::string twoDigits(long value)
-{
-    return (value < 10 ? "0" : "") + std::to_string(value);
-}
+std::string twoDigits(long value) { return (value < 10 ? "0" : "") + std::to_string(value); }
 
 } // namespace
 
@@ -59,10 +53,10 @@ int readInteger(const std::string& option, const std::string& text, int first, i
     const auto value = number<int>(text);
     if (!value || *value < first || *value > last) {
         const bool open = last == std::numeric_limits<int>::max();
-        throw UsageError(option + " takes a whole number " +
-                         (open ? "from " + std::to_string(first) + " on"
-                               : "from " + std::to_string(first) + " to " + std::to_string(last)) +
-                         "; " + inQuotes(text) + " is none.");
+        throw UsageError(
+            option + " takes a whole number " +
+            (open ? "from " + std::to_string(first) + " on" : "from " + std::to_string(first) + " to " + std::to_string(last)) + "; " +
+            inQuotes(text) + " is none.");
     }
     return *value;
 }
@@ -71,8 +65,7 @@ double readFraction(const std::string& option, const std::string& text)
 {
     const auto value = number<double>(text);
     if (!value || !(*value > 0 && *value < 1))
-        throw UsageError(option + " takes a number above 0 and below 1, 0.001 for instance; " + inQuotes(text) +
-                         " is none.");
+        throw UsageError(option + " takes a number above 0 and below 1, 0.001 for instance; " + inQuotes(text) + " is none.");
     return *value;
 }
 
@@ -88,8 +81,8 @@ std::set<solver::Part> readParts(const std::string& option, const std::string& t
         std::erase(name, ' ');
         const auto found = std::find(names.begin(), names.end(), name);
         if (found == names.end())
-            throw UsageError(option + ": there is no part " + inQuotes(name) + "." + suggestion(name, names) +
-                             " The parts are " + joined(names) + ".");
+            throw UsageError(option + ": there is no part " + inQuotes(name) + "." + suggestion(name, names) + " The parts are " +
+                             joined(names) + ".");
         parts.insert(solver::allParts()[static_cast<std::size_t>(found - names.begin())]);
         begin = end + 1;
     }
@@ -102,8 +95,7 @@ std::pair<int, int> readLayers(const std::string& option, const std::string& tex
     const auto first = number<int>(std::string_view(text).substr(0, dots));
     const auto last = dots == std::string::npos ? first : number<int>(std::string_view(text).substr(dots + 2));
     if (!first || !last || *first < 0 || *last < *first)
-        throw UsageError(option +
-                         " takes altitude layers as FIRST..LAST, counted from 0 at the ground, 0..3 for instance; " +
+        throw UsageError(option + " takes altitude layers as FIRST..LAST, counted from 0 at the ground, 0..3 for instance; " +
                          inQuotes(text) + " is none.");
     return {*first, *last};
 }
@@ -126,8 +118,7 @@ std::size_t readSize(const std::string& option, const std::string& text)
     }
     // Less than a megabyte can only be a slip of the unit; more than 2^62 bytes, of the keyboard.
     if (!value || !known || *value * factor < 1e6 || *value * factor > 4.6e18)
-        throw UsageError(option + " takes a size of at least 1 MB, 512M or 1.5GiB for instance; " + inQuotes(text) +
-                         " is none.");
+        throw UsageError(option + " takes a size of at least 1 MB, 512M or 1.5GiB for instance; " + inQuotes(text) + " is none.");
     return static_cast<std::size_t>(*value * factor);
 }
 
@@ -135,8 +126,7 @@ std::size_t readChoice(const std::string& option, const std::string& text, const
 {
     const auto found = std::find(choices.begin(), choices.end(), text);
     if (found == choices.end())
-        throw UsageError(option + ": " + inQuotes(text) + " is not one of " + joined(choices) + "." +
-                         suggestion(text, choices));
+        throw UsageError(option + ": " + inQuotes(text) + " is not one of " + joined(choices) + "." + suggestion(text, choices));
     return static_cast<std::size_t>(found - choices.begin());
 }
 

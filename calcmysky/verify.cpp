@@ -24,10 +24,7 @@ namespace sky::cli {
 namespace {
 
 /// Samples in each cell of regime and altitude: few enough that each is judged well, enough that they stand for the cell.
-int rowsFor(const double seconds)
-{
-    return std::clamp(static_cast<int>(seconds / 6), 6, 60);
-}
+int rowsFor(const double seconds) { return std::clamp(static_cast<int>(seconds / 6), 6, 60); }
 
 std::vector<VerifiedRow> evaluated(const model::Model& file, const model::SkySource source, const std::vector<Sample>& samples)
 {
@@ -49,15 +46,11 @@ public:
     {
         CLI::App* sub = app.add_subcommand("verify", "Say how accurate a model is, by Monte Carlo");
         sub->add_option("model", directory_, "The model's directory")->option_text("DIR");
-        sub->add_option("--seconds", seconds_, "Time for the reference; more time, less noise. Default 60")
-            ->option_text("T");
-        sub->add_option("--source", source_,
-                        "moments or textures (of a model made with --radiance).\nDefault: moments where there are any")
+        sub->add_option("--seconds", seconds_, "Time for the reference; more time, less noise. Default 60")->option_text("T");
+        sub->add_option("--source", source_, "moments or textures (of a model made with --radiance).\nDefault: moments where there are any")
             ->option_text("NAME");
-        sub->add_option("--json", json_, "Write all results there too, - for standard output in place of the table")
-            ->option_text("FILE");
-        sub->add_option("--fail-above", failAbove_,
-                        "Exit code 1 where the rms error of any line of the table is above this part")
+        sub->add_option("--json", json_, "Write all results there too, - for standard output in place of the table")->option_text("FILE");
+        sub->add_option("--fail-above", failAbove_, "Exit code 1 where the rms error of any line of the table is above this part")
             ->option_text("X");
         sub->add_option("--seed", seed_, "Of the random numbers. Default 1")->option_text("N");
         return sub;
@@ -146,9 +139,6 @@ private:
 
 } // namespace
 
-std::unique_ptr<Subcommand> makeVerify()
-{
-    return std::make_unique<Verify>();
-}
+std::unique_ptr<Subcommand> makeVerify() { return std::make_unique<Verify>(); }
 
 } // namespace sky::cli

@@ -60,10 +60,7 @@ std::string altitudeText(const double altitude)
     return altitude < 1000 ? number(altitude, 7, 0) + " m " : number(altitude / 1000, 7, 1) + " km";
 }
 
-std::string percent(const double share, const int width, const bool sign = false)
-{
-    return number(100 * share, width, 2, sign) + " %";
-}
+std::string percent(const double share, const int width, const bool sign = false) { return number(100 * share, width, 2, sign) + " %"; }
 
 std::string numbersOf(const Cell& cell)
 {
@@ -78,8 +75,8 @@ std::string numbersOf(const Cell& cell)
 nlohmann::json jsonOf(const Cell& cell)
 {
     const auto& t = cell.total;
-    return {{"rows", t.rows()},       {"rms_error", t.rms()},          {"rms_uncertainty", t.uncertainty()},
-            {"mean_error", t.mean()}, {"judge_noise", t.noise()},      {"rms_single_error", cell.single.rms()},
+    return {{"rows", t.rows()},        {"rms_error", t.rms()},     {"rms_uncertainty", t.uncertainty()},
+            {"mean_error", t.mean()},  {"judge_noise", t.noise()}, {"rms_single_error", cell.single.rms()},
             {"worst_error", t.worst()}};
 }
 
@@ -94,11 +91,10 @@ void printTable(const Verification& v, std::ostream& to)
     for (const Regime regime : allRegimes) {
         const auto& range = v.scale.suns[static_cast<int>(regime)];
         const std::string name = nameOf(regime);
-        const std::string sun = name + std::string(8 - name.size(), ' ') + number(range.high / degree, 6, 1) + " to" +
-                                number(range.low / degree, 6, 1);
+        const std::string sun =
+            name + std::string(8 - name.size(), ' ') + number(range.high / degree, 6, 1) + " to" + number(range.low / degree, 6, 1);
         for (int a = 0; a < static_cast<int>(v.scale.altitudes.size()); ++a)
-            to << sun << altitudeText(v.scale.altitudes[static_cast<std::size_t>(a)]) << "   "
-               << numbersOf(cellOf(v, regime, a)) << "\n";
+            to << sun << altitudeText(v.scale.altitudes[static_cast<std::size_t>(a)]) << "   " << numbersOf(cellOf(v, regime, a)) << "\n";
         to << sun << "       all   " << numbersOf(cellOf(v, regime, -1)) << "\n";
     }
     if (v.darkRows > 0)

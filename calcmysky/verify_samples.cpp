@@ -23,8 +23,8 @@ double scatteringTop(const physics::Medium& medium)
     for (std::size_t k = medium.altitudes.size() - 1; k > 0; --k) {
         double beta = 0;
         for (const auto& species : medium.species)
-            beta += 0.5 * (species.numberDensity[k] + species.numberDensity[k - 1]) *
-                    species.extinctionCrossSection[middle] * species.singleScatteringAlbedo[middle];
+            beta += 0.5 * (species.numberDensity[k] + species.numberDensity[k - 1]) * species.extinctionCrossSection[middle] *
+                    species.singleScatteringAlbedo[middle];
         depth += beta * (medium.altitudes[k] - medium.altitudes[k - 1]);
         if (depth > negligibleDepth)
             return medium.altitudes[k];
@@ -73,10 +73,7 @@ double angleToSun(const montecarlo::Query& q)
 
 } // namespace
 
-const char* nameOf(const Regime regime)
-{
-    return regime == Regime::Day ? "day" : regime == Regime::Sunset ? "sunset" : "twilight";
-}
+const char* nameOf(const Regime regime) { return regime == Regime::Day ? "day" : regime == Regime::Sunset ? "sunset" : "twilight"; }
 
 SampleScale sampleScale(const physics::Medium& medium)
 {

@@ -15,10 +15,10 @@ const char* nameOf(Regime regime);
 /// Altitudes and ranges of the Sun that correspond to those of the Earth: altitudes scale with the thickness of the air that
 /// scatters anything worth seeing, depths of the Sun with the dip of the horizon seen from its upper end.
 struct SampleScale {
-    std::vector<double> altitudes;                         ///< m: ground, and like 2, 12 and 60 km
+    std::vector<double> altitudes; ///< m: ground, and like 2, 12 and 60 km
     struct Range {
-        double low, high;                                  ///< elevation of the Sun's centre, rad
-    } suns[3];                                             ///< by Regime; on the Earth 90..4, 4..-1 and -1..-6 degrees
+        double low, high; ///< elevation of the Sun's centre, rad
+    } suns[3];            ///< by Regime; on the Earth 90..4, 4..-1 and -1..-6 degrees
 };
 SampleScale sampleScale(const physics::Medium& medium);
 

@@ -1,7 +1,4 @@
 // In sanitizer builds of a program with a window: libraries stay loaded until the end. Drivers that GLFW unloads would be unknown modules to
 // the report of leaks, and cmake/lsan.supp goes by names.
 extern "C" int dlclose(void* library);
-extern "C" int dlclose(void*)
-{
-    return 0;
-}
+extern "C" int dlclose(void*) { return 0; }

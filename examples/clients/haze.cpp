@@ -3,10 +3,10 @@
 
 #include "context.h"
 #define GL_GLEXT_PROTOTYPES
-#include <GL/gl.h>
-#include <GL/glext.h>
 #include <cmath>
 #include <cstdio>
+#include <GL/gl.h>
+#include <GL/glext.h>
 #include <showmysky/sky.hpp>
 #include <vector>
 

@@ -23,10 +23,7 @@ std::string_view withoutComment(std::string_view line)
     return inQuotes ? line.substr(0, line.find('#')) : line;
 }
 
-std::size_t offsetOf(std::string_view part, std::string_view whole)
-{
-    return static_cast<std::size_t>(part.data() - whole.data());
-}
+std::size_t offsetOf(std::string_view part, std::string_view whole) { return static_cast<std::size_t>(part.data() - whole.data()); }
 
 class Reader
 {
@@ -82,8 +79,7 @@ private:
         const std::string_view value = trimmed(content_.substr(colon + 1));
         entry.kind = Entry::Kind::Value;
         entry.value = value;
-        entry.valuePlace = {line_,
-                            placeOf(content_).offset + (value.empty() ? content_.size() : offsetOf(value, content_))};
+        entry.valuePlace = {line_, placeOf(content_).offset + (value.empty() ? content_.size() : offsetOf(value, content_))};
         if (value.empty())
             lookForBlockBelow(entry);
         else if (value.front() == '{')
@@ -109,8 +105,7 @@ private:
     void openSection(Entry& entry, std::string_view brace)
     {
         if (trimmed(brace).size() > 1)
-            source_.fail(placeOf(trimmed(brace.substr(1))),
-                         "text after `{`; expected the section to begin on the next line");
+            source_.fail(placeOf(trimmed(brace.substr(1))), "text after `{`; expected the section to begin on the next line");
         entry.kind = Entry::Kind::Section;
         entry.value.clear();
         entry.valuePlace = placeOf(brace);
@@ -121,17 +116,15 @@ private:
         while (nextLine()) {
             if (content_.front() == '}') {
                 if (content_.size() > 1)
-                    source_.fail(placeOf(trimmed(content_.substr(1))),
-                                 "text after `}`; expected the next entry on a line of its own");
+                    source_.fail(placeOf(trimmed(content_.substr(1))), "text after `}`; expected the next entry on a line of its own");
                 return;
             }
             section.entries.push_back(entry());
             if (section.entries.back().kind == Entry::Kind::Section)
-                source_.fail(section.entries.back().keyPlace, "a section inside of " + inBackticks(section.key) +
-                                                                  "; sections can't be nested (is a `}` missing?)");
+                source_.fail(section.entries.back().keyPlace,
+                             "a section inside of " + inBackticks(section.key) + "; sections can't be nested (is a `}` missing?)");
         }
-        source_.fail(section.valuePlace,
-                     "the section " + inBackticks(section.key) + " has no end; expected a line with `}`");
+        source_.fail(section.valuePlace, "the section " + inBackticks(section.key) + " has no end; expected a line with `}`");
     }
 
     void readCode(Entry& entry, std::string_view opening)
@@ -173,10 +166,7 @@ private:
 
 } // namespace
 
-std::vector<Entry> readEntries(const Source& source)
-{
-    return Reader(source).all();
-}
+std::vector<Entry> readEntries(const Source& source) { return Reader(source).all(); }
 
 std::string comparable(std::string_view key)
 {

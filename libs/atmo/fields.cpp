@@ -15,8 +15,8 @@ bool contains(std::span<const std::string_view> keys, std::string_view wanted)
     return std::any_of(keys.begin(), keys.end(), [&](std::string_view key) { return comparable(key) == compared; });
 }
 
-[[noreturn]] void failUnknown(const Source& source, const Entry& entry, const std::string& where,
-                              std::span<const std::string_view> known, std::span<const std::string_view> other)
+[[noreturn]] void failUnknown(const Source& source, const Entry& entry, const std::string& where, std::span<const std::string_view> known,
+                              std::span<const std::string_view> other)
 {
     std::string hint;
     if (entry.kind == Entry::Kind::Token)
@@ -48,13 +48,11 @@ Fields::Fields(const Source& source, std::vector<std::reference_wrapper<const En
         if (!contains(known, entry.key))
             failUnknown(source, entry, where, known, other);
         const std::string compared = comparable(entry.key);
-        const auto earlier =
-            std::find_if(seen.begin(), seen.end(), [&](const Entry* e) { return comparable(e->key) == compared; });
+        const auto earlier = std::find_if(seen.begin(), seen.end(), [&](const Entry* e) { return comparable(e->key) == compared; });
         if (earlier == seen.end())
             seen.push_back(&entry);
         else if (!isWeightedFile(entry) || !isWeightedFile(**earlier))
-            source.fail(entry.keyPlace, inBackticks(entry.key) + " was given before, in line " +
-                                            std::to_string((*earlier)->keyPlace.line) +
+            source.fail(entry.keyPlace, inBackticks(entry.key) + " was given before, in line " + std::to_string((*earlier)->keyPlace.line) +
                                             "; expected it once (only `weighted file` spectra add up)");
     }
 }

@@ -17,22 +17,14 @@ constexpr int maxPoints = 1'000'000;
 using D = Description;
 
 constexpr WholeNumberKey wholeNumbers[] = {
-    {"transmittance texture size for VZA", 256, 2, maxTexels, false,
-     [](D& d) -> int& { return d.transmittanceSize.zenithAngle; }},
-    {"transmittance texture size for altitude", 64, 2, maxTexels, false,
-     [](D& d) -> int& { return d.transmittanceSize.altitude; }},
-    {"irradiance texture size for SZA", 64, 2, maxTexels, false,
-     [](D& d) -> int& { return d.irradianceSize.zenithAngle; }},
-    {"irradiance texture size for altitude", 16, 2, maxTexels, false,
-     [](D& d) -> int& { return d.irradianceSize.altitude; }},
-    {"scattering texture size for VZA", 128, 4, maxTexels, true,
-     [](D& d) -> int& { return d.scatteringSize.viewZenithAngle; }},
-    {"scattering texture size for dot(view,sun)", 8, 2, maxTexels, false,
-     [](D& d) -> int& { return d.scatteringSize.dotViewSun; }},
-    {"scattering texture size for SZA", 32, 2, maxTexels, false,
-     [](D& d) -> int& { return d.scatteringSize.sunZenithAngle; }},
-    {"scattering texture size for altitude", 32, 2, maxTexels, false,
-     [](D& d) -> int& { return d.scatteringSize.altitude; }},
+    {"transmittance texture size for VZA", 256, 2, maxTexels, false, [](D& d) -> int& { return d.transmittanceSize.zenithAngle; }},
+    {"transmittance texture size for altitude", 64, 2, maxTexels, false, [](D& d) -> int& { return d.transmittanceSize.altitude; }},
+    {"irradiance texture size for SZA", 64, 2, maxTexels, false, [](D& d) -> int& { return d.irradianceSize.zenithAngle; }},
+    {"irradiance texture size for altitude", 16, 2, maxTexels, false, [](D& d) -> int& { return d.irradianceSize.altitude; }},
+    {"scattering texture size for VZA", 128, 4, maxTexels, true, [](D& d) -> int& { return d.scatteringSize.viewZenithAngle; }},
+    {"scattering texture size for dot(view,sun)", 8, 2, maxTexels, false, [](D& d) -> int& { return d.scatteringSize.dotViewSun; }},
+    {"scattering texture size for SZA", 32, 2, maxTexels, false, [](D& d) -> int& { return d.scatteringSize.sunZenithAngle; }},
+    {"scattering texture size for altitude", 32, 2, maxTexels, false, [](D& d) -> int& { return d.scatteringSize.altitude; }},
     {"eclipsed scattering texture size for relative azimuth", 32, 2, maxTexels, false,
      [](D& d) -> int& { return d.eclipsedScatteringSize.relativeAzimuth; }},
     {"eclipsed scattering texture size for VZA", 64, 2, maxTexels, false,
@@ -47,16 +39,12 @@ constexpr WholeNumberKey wholeNumbers[] = {
      [](D& d) -> int& { return d.eclipsedDoubleScatteringSize.azimuthPairs; }},
     {"eclipsed double scattering number of elevation pairs to sample", 10, 1, maxTexels, false,
      [](D& d) -> int& { return d.eclipsedDoubleScatteringSize.elevationPairs; }},
-    {"light pollution texture size for VZA", 128, 2, maxTexels, false,
-     [](D& d) -> int& { return d.lightPollutionSize.zenithAngle; }},
-    {"light pollution texture size for altitude", 64, 2, maxTexels, false,
-     [](D& d) -> int& { return d.lightPollutionSize.altitude; }},
-    {"transmittance integration points", 500, 1, maxPoints, false,
-     [](D& d) -> int& { return d.transmittanceIntegrationPoints; }},
+    {"light pollution texture size for VZA", 128, 2, maxTexels, false, [](D& d) -> int& { return d.lightPollutionSize.zenithAngle; }},
+    {"light pollution texture size for altitude", 64, 2, maxTexels, false, [](D& d) -> int& { return d.lightPollutionSize.altitude; }},
+    {"transmittance integration points", 500, 1, maxPoints, false, [](D& d) -> int& { return d.transmittanceIntegrationPoints; }},
     {"radial integration points", 50, 1, maxPoints, false, [](D& d) -> int& { return d.radialIntegrationPoints; }},
     {"angular integration points", 512, 1, maxPoints, false, [](D& d) -> int& { return d.angularIntegrationPoints; }},
-    {"angular integration points for eclipse", 512, 1, maxPoints, false,
-     [](D& d) -> int& { return d.eclipseAngularIntegrationPoints; }},
+    {"angular integration points for eclipse", 512, 1, maxPoints, false, [](D& d) -> int& { return d.eclipseAngularIntegrationPoints; }},
     {"light pollution angular integration points", 200, 1, maxPoints, false,
      [](D& d) -> int& { return d.lightPollutionAngularIntegrationPoints; }},
 };
@@ -88,22 +76,10 @@ constexpr std::string_view absorberKeyList[] = {key::numberDensity, key::crossSe
 
 } // namespace
 
-std::span<const WholeNumberKey> wholeNumberKeys()
-{
-    return wholeNumbers;
-}
-std::span<const LengthKey> lengthKeys()
-{
-    return lengths;
-}
-std::span<const std::string_view> scattererKeys()
-{
-    return scattererKeyList;
-}
-std::span<const std::string_view> absorberKeys()
-{
-    return absorberKeyList;
-}
+std::span<const WholeNumberKey> wholeNumberKeys() { return wholeNumbers; }
+std::span<const LengthKey> lengthKeys() { return lengths; }
+std::span<const std::string_view> scattererKeys() { return scattererKeyList; }
+std::span<const std::string_view> absorberKeys() { return absorberKeyList; }
 
 std::span<const std::string_view> topLevelKeys()
 {

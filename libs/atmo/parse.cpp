@@ -22,10 +22,7 @@ constexpr std::int64_t mostScatteringTexels = std::int64_t{1} << 30;
 constexpr double mostIrradiance = 1e20;  // W m^-2 nm^-1
 constexpr double mostCrossSection = 1e6; // m^2
 
-std::string fromTo(int min, int max)
-{
-    return "from " + std::to_string(min) + " to " + std::to_string(max);
-}
+std::string fromTo(int min, int max) { return "from " + std::to_string(min) + " to " + std::to_string(max); }
 
 class Parser
 {
@@ -80,16 +77,14 @@ private:
 
     static std::vector<std::string_view> mandatoryTopLevelKeys()
     {
-        std::vector<std::string_view> keys{key::scatteringOrders, key::wavelengths, key::solarIrradiance,
-                                           key::groundAlbedo};
+        std::vector<std::string_view> keys{key::scatteringOrders, key::wavelengths, key::solarIrradiance, key::groundAlbedo};
         for (const LengthKey& entry : lengthKeys())
             if (!entry.fallback)
                 keys.push_back(entry.key);
         return keys;
     }
 
-    void requireKeys(const Fields& fields, const std::vector<std::string_view>& keys, const std::string& where,
-                     Position place)
+    void requireKeys(const Fields& fields, const std::vector<std::string_view>& keys, const std::string& where, Position place)
     {
         std::string missing;
         for (const std::string_view key : keys)
@@ -103,8 +98,7 @@ private:
     const Entry& plainValue(const Entry& entry) const
     {
         if (entry.kind == Entry::Kind::Token)
-            source_.fail(entry.keyPlace,
-                         inBackticks(entry.key) + " has no value; expected a colon and a value after it");
+            source_.fail(entry.keyPlace, inBackticks(entry.key) + " has no value; expected a colon and a value after it");
         if (entry.kind != Entry::Kind::Value)
             source_.fail(entry.valuePlace, inBackticks(entry.key) + " takes a value on the same line, not a block");
         return entry;
@@ -124,8 +118,7 @@ private:
         description_.version = reader.wholeNumber();
         reader.expectEnd();
         if (description_.version != supportedVersion)
-            source_.fail(place, "version " + std::to_string(description_.version) +
-                                    " of the language is not supported; " + expected);
+            source_.fail(place, "version " + std::to_string(description_.version) + " of the language is not supported; " + expected);
     }
 
     void readLength(const Fields& fields, const LengthKey& key)
@@ -141,8 +134,8 @@ private:
         reader.expectEnd();
         // 1e-9: the ends of a range belong to it whatever unit they were written in.
         if (!(field >= key.min * (1 - 1e-9) && field <= key.max * (1 + 1e-9)))
-            source_.fail(entry->valuePlace, inBackticks(key.key) + " is " + inBackticks(entry->value) +
-                                                "; it must be " + std::string(key.range));
+            source_.fail(entry->valuePlace,
+                         inBackticks(key.key) + " is " + inBackticks(entry->value) + "; it must be " + std::string(key.range));
     }
 
     void readWholeNumber(const Fields& fields, const WholeNumberKey& key)
@@ -156,9 +149,8 @@ private:
         field = reader.wholeNumber();
         reader.expectEnd();
         if (field < key.min || field > key.max || (key.even && field % 2 != 0))
-            source_.fail(entry->valuePlace, inBackticks(key.key) + " is " + inBackticks(entry->value) +
-                                                "; it must be " + (key.even ? "even and " : "") +
-                                                fromTo(key.min, key.max));
+            source_.fail(entry->valuePlace, inBackticks(key.key) + " is " + inBackticks(entry->value) + "; it must be " +
+                                                (key.even ? "even and " : "") + fromTo(key.min, key.max));
     }
 
     void checkScatteringSize(const Fields& fields)
@@ -173,8 +165,7 @@ private:
             if (key.key.starts_with("scattering texture"))
                 if (const Entry* entry = fields.find(key.key))
                     place = entry->valuePlace;
-        source_.fail(place,
-                     "the four scattering texture sizes multiply to more than 2^30 texels; expected smaller ones");
+        source_.fail(place, "the four scattering texture sizes multiply to more than 2^30 texels; expected smaller ones");
     }
 
     void readScatteringOrders(const Entry& entry)
@@ -218,12 +209,11 @@ private:
         if (!(*minNm >= 10 && *maxNm <= 100e3))
             source_.fail(entry.valuePlace, "the wavelengths must be from 10 nm to 100 um");
         if (*count < 1 || *count > mostWavelengths)
-            source_.fail(entry.valuePlace, "the count of wavelengths is " + std::to_string(*count) + "; it must be " +
-                                               fromTo(1, mostWavelengths));
+            source_.fail(entry.valuePlace,
+                         "the count of wavelengths is " + std::to_string(*count) + "; it must be " + fromTo(1, mostWavelengths));
         if (*count == 1 ? *minNm != *maxNm : !(*minNm < *maxNm))
-            source_.fail(entry.valuePlace, *count == 1
-                                               ? "one wavelength needs `min` and `max` to be equal"
-                                               : "`min` must be smaller than `max` where `count` is more than 1");
+            source_.fail(entry.valuePlace, *count == 1 ? "one wavelength needs `min` and `max` to be equal"
+                                                       : "`min` must be smaller than `max` where `count` is more than 1");
         description_.wavelengths = {*minNm, *maxNm, *count};
     }
 
@@ -251,14 +241,13 @@ private:
         if (name.size() < 2 || !name.starts_with('"') || !name.ends_with('"'))
             source_.fail(entry.keyPlace, "expected a name in double quotes, like `" + word + " \"molecules\":`");
         name = trimmed(name.substr(1, name.size() - 2));
-        const Position place{entry.keyPlace.line,
-                             entry.keyPlace.offset + static_cast<std::size_t>(name.data() - entry.key.data())};
+        const Position place{entry.keyPlace.line, entry.keyPlace.offset + static_cast<std::size_t>(name.data() - entry.key.data())};
         const bool legal = std::all_of(name.begin(), name.end(), [](char c) {
             return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
         });
         if (name.empty() || name.size() > longestName || !legal)
-            source_.fail(place, inBackticks(name) + " can't be the name of a species; expected 1 to " +
-                                    std::to_string(longestName) + " letters (a-z, A-Z), digits and underscores");
+            source_.fail(place, inBackticks(name) + " can't be the name of a species; expected 1 to " + std::to_string(longestName) +
+                                    " letters (a-z, A-Z), digits and underscores");
         // Tables of the model are files named after the species, and some file systems don't tell small from capital.
         const auto lower = [](std::string_view text) {
             std::string result(text);
@@ -292,8 +281,7 @@ private:
             source_.fail(entry.kind == Entry::Kind::Token ? entry.keyPlace : entry.valuePlace,
                          inBackticks(entry.key) + " needs a code block: lines of GLSL between two lines of ```");
         if (entry.code.text.find_first_not_of(" \t\n") == std::string::npos)
-            source_.fail(entry.valuePlace, "the code block of " + inBackticks(entry.key) +
-                                               " is empty; expected GLSL that returns a value");
+            source_.fail(entry.valuePlace, "the code block of " + inBackticks(entry.key) + " is empty; expected GLSL that returns a value");
         return entry.code;
     }
 
@@ -316,8 +304,7 @@ private:
             scatterer.singleScatteringAlbedo.assign(static_cast<std::size_t>(description_.wavelengths.count), 1.0);
         if (const Entry* entry = fields.find(key::interpolationGuides)) {
             if (entry->kind != Entry::Kind::Token)
-                source_.fail(entry->keyPlace,
-                             "`needs interpolation guides` takes no value; expected it alone, without a colon");
+                source_.fail(entry->keyPlace, "`needs interpolation guides` takes no value; expected it alone, without a colon");
             scatterer.needsInterpolationGuides = true;
         }
         return scatterer;
@@ -325,11 +312,10 @@ private:
 
     PhaseFunctionType readPhaseFunctionType(const Entry& entry) const
     {
-        const auto* const found =
-            std::find(std::begin(phaseFunctionTypeNames), std::end(phaseFunctionTypeNames), comparable(entry.value));
+        const auto* const found = std::find(std::begin(phaseFunctionTypeNames), std::end(phaseFunctionTypeNames), comparable(entry.value));
         if (found == std::end(phaseFunctionTypeNames))
-            source_.fail(entry.valuePlace, "`phase function type` must be `general`, `achromatic` or `smooth`, found " +
-                                               inBackticks(entry.value));
+            source_.fail(entry.valuePlace,
+                         "`phase function type` must be `general`, `achromatic` or `smooth`, found " + inBackticks(entry.value));
         return static_cast<PhaseFunctionType>(found - std::begin(phaseFunctionTypeNames));
     }
 
@@ -339,8 +325,7 @@ private:
         const double value = reader.quantity(Dimension::Area);
         reader.expectEnd();
         if (!(value >= 0 && value <= mostCrossSection))
-            source_.fail(entry.valuePlace,
-                         "`cross section at 1 um` is " + inBackticks(entry.value) + "; it must be from 0 m^2 to 1 km^2");
+            source_.fail(entry.valuePlace, "`cross section at 1 um` is " + inBackticks(entry.value) + "; it must be from 0 m^2 to 1 km^2");
         return value;
     }
 
@@ -350,8 +335,7 @@ private:
         const double value = reader.number();
         reader.expectEnd();
         if (!(value >= -20 && value <= 20))
-            source_.fail(entry.valuePlace,
-                         "`angstrom exponent` is " + inBackticks(entry.value) + "; it must be from -20 to 20");
+            source_.fail(entry.valuePlace, "`angstrom exponent` is " + inBackticks(entry.value) + "; it must be from -20 to 20");
         return value;
     }
 
@@ -370,8 +354,7 @@ private:
 
 } // namespace
 
-Description parse(std::string_view text, const std::string& fileName, const std::filesystem::path& directory,
-                  const ParseOptions& options)
+Description parse(std::string_view text, const std::string& fileName, const std::filesystem::path& directory, const ParseOptions& options)
 {
     if (text.size() > largestDescription)
         throw AtmoError({fileName, 0, 0}, "the description is larger than 16 MB; expected a text written by a person");

@@ -9,10 +9,7 @@ namespace {
 constexpr std::size_t longestShownLine = 160; // bytes; a terminal or two of context around the caret
 constexpr std::size_t longestQuotation = 60;
 
-bool isContinuationByte(char c)
-{
-    return (static_cast<unsigned char>(c) & 0xC0) == 0x80;
-}
+bool isContinuationByte(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
 
 // Moves `at` back to the beginning of the UTF-8 character that it may have cut.
 std::size_t characterStart(std::string_view text, std::size_t at)

@@ -45,9 +45,6 @@ std::string printable(std::string_view text);
 std::string_view trimmed(std::string_view text);
 
 /// True for ' ' and '\t'.
-constexpr bool isBlank(char c)
-{
-    return c == ' ' || c == '\t';
-}
+constexpr bool isBlank(char c) { return c == ' ' || c == '\t'; }
 
 } // namespace sky::atmo

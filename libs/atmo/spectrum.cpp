@@ -28,8 +28,7 @@ std::string shown(double value)
     return error == std::errc() ? std::string(buffer, end) : std::string("?");
 }
 
-void checkRange(const SpectrumContext& context, const Entry& entry, Position place, Spectrum& spectrum,
-                SpectrumRange range)
+void checkRange(const SpectrumContext& context, const Entry& entry, Position place, Spectrum& spectrum, SpectrumRange range)
 {
     const bool bounded = std::isfinite(range.max);
     for (std::size_t i = 0; i < spectrum.size(); ++i) {
@@ -37,10 +36,9 @@ void checkRange(const SpectrumContext& context, const Entry& entry, Position pla
         if (bounded && value > range.max && value <= range.max * (1 + roundingAllowance))
             value = range.max;
         if (!std::isfinite(value) || value < 0 || value > range.max)
-            context.source.fail(place,
-                                inBackticks(entry.key) + " is " + shown(value) + " at " +
-                                    shown(context.wavelengths.at(static_cast<int>(i))) + " nm; it must be " +
-                                    (bounded ? "from 0 to " + shown(range.max) : std::string("a number from 0 up")));
+            context.source.fail(place, inBackticks(entry.key) + " is " + shown(value) + " at " +
+                                           shown(context.wavelengths.at(static_cast<int>(i))) + " nm; it must be " +
+                                           (bounded ? "from 0 to " + shown(range.max) : std::string("a number from 0 up")));
     }
 }
 
@@ -60,8 +58,8 @@ Spectrum readList(const SpectrumContext& context, const Entry& entry, SpectrumRa
     if (!reader.atEnd())
         reader.fail("expected a comma between numbers, found " + inBackticks(reader.peek()));
     if (list.size() < count)
-        reader.fail(inBackticks(entry.key) + " has " + std::to_string(list.size()) +
-                    (list.size() == 1 ? " number; " : " numbers; ") + expected);
+        reader.fail(inBackticks(entry.key) + " has " + std::to_string(list.size()) + (list.size() == 1 ? " number; " : " numbers; ") +
+                    expected);
     return list;
 }
 
@@ -124,8 +122,7 @@ Spectrum readFile(const SpectrumContext& context, const Entry& entry, ValueReade
     const ParseOptions options = readFileOptions(reader, context.options);
     reader.expectEnd();
 
-    const std::filesystem::path file =
-        context.directory / std::filesystem::path(std::u8string(path.begin(), path.end()));
+    const std::filesystem::path file = context.directory / std::filesystem::path(std::u8string(path.begin(), path.end()));
     std::string text;
     try {
         text = readTextFile(file, largestFile);
@@ -139,9 +136,8 @@ Spectrum readFile(const SpectrumContext& context, const Entry& entry, ValueReade
     Spectrum values;
     for (const double nm : grid.values()) {
         if (!table.covers(nm) && options.outside == OutsideRange::Error)
-            context.source.fail(place, inBackticks(path) + " covers " + shown(table.firstNm()) + " to " +
-                                           shown(table.lastNm()) + " nm, but " + shown(nm) +
-                                           " nm is one of the wavelengths; add `[outside=zero]` or " +
+            context.source.fail(place, inBackticks(path) + " covers " + shown(table.firstNm()) + " to " + shown(table.lastNm()) +
+                                           " nm, but " + shown(nm) + " nm is one of the wavelengths; add `[outside=zero]` or " +
                                            "`[outside=end]` to extend the file by zero or by its end value");
         if (!table.covers(nm) && options.outside == OutsideRange::Zero)
             values.push_back(0);
@@ -172,12 +168,11 @@ Spectrum readSpectrum(const SpectrumContext& context, const std::vector<const En
     const Entry& first = *entries.front();
     if (first.kind != Entry::Kind::Value || first.value.empty())
         context.source.fail(first.kind == Entry::Kind::Token ? first.keyPlace : first.valuePlace,
-                            inBackticks(first.key) +
-                                " needs a spectrum: a list of numbers, `file PATH` or `weighted file WEIGHT PATH`");
+                            inBackticks(first.key) + " needs a spectrum: a list of numbers, `file PATH` or `weighted file WEIGHT PATH`");
     if (entries.size() > mostWeightedFiles)
-        context.source.fail(entries[mostWeightedFiles]->keyPlace,
-                            inBackticks(first.key) + " is the sum of too many files; expected at most " +
-                                std::to_string(mostWeightedFiles));
+        context.source.fail(entries[mostWeightedFiles]->keyPlace, inBackticks(first.key) +
+                                                                      " is the sum of too many files; expected at most " +
+                                                                      std::to_string(mostWeightedFiles));
     Spectrum sum(static_cast<std::size_t>(context.wavelengths.count), 0.0);
     for (const Entry* entry : entries) {
         ValueReader reader(context.source, *entry);
@@ -188,10 +183,9 @@ Spectrum readSpectrum(const SpectrumContext& context, const std::vector<const En
         const Position place = reader.place();
         const std::string form = comparable(reader.word());
         if (form != "file" && form != "weighted")
-            reader.failAt(place, "expected a list of numbers, `file PATH` or `weighted file WEIGHT PATH`, found " +
-                                     inBackticks(entry->value));
-        const Spectrum part =
-            form == "file" ? readFile(context, *entry, reader) : readWeightedFile(context, *entry, reader);
+            reader.failAt(place,
+                          "expected a list of numbers, `file PATH` or `weighted file WEIGHT PATH`, found " + inBackticks(entry->value));
+        const Spectrum part = form == "file" ? readFile(context, *entry, reader) : readWeightedFile(context, *entry, reader);
         std::transform(sum.begin(), sum.end(), part.begin(), sum.begin(), std::plus<>());
     }
     checkRange(context, first, first.valuePlace, sum, range);

@@ -72,26 +72,17 @@ std::string asciiUnit(std::string_view text)
     return unit;
 }
 
-bool isDigit(char c)
-{
-    return c >= '0' && c <= '9';
-}
-bool isLetter(char c)
-{
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-}
+bool isDigit(char c) { return c >= '0' && c <= '9'; }
+bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
 } // namespace
 
 std::string_view nameOf(Dimension dimension)
 {
     switch (dimension) {
-    case Dimension::Length:
-        return "length";
-    case Dimension::ReciprocalLength:
-        return "reciprocal length";
-    case Dimension::Area:
-        break;
+    case Dimension::Length: return "length";
+    case Dimension::ReciprocalLength: return "reciprocal length";
+    case Dimension::Area: break;
     }
     return "area";
 }
@@ -105,10 +96,7 @@ std::string unitsOf(Dimension dimension)
     return list;
 }
 
-ValueReader::ValueReader(const Source& source, Position begin, std::string_view text)
-    : source_(source), begin_(begin), text_(text)
-{
-}
+ValueReader::ValueReader(const Source& source, Position begin, std::string_view text) : source_(source), begin_(begin), text_(text) {}
 
 void ValueReader::skipBlanks()
 {
@@ -134,18 +122,15 @@ std::string_view ValueReader::peek()
     return trimmed(text_.substr(at_));
 }
 
-std::string ValueReader::found()
-{
-    return atEnd() ? "found nothing" : "found " + inBackticks(peek());
-}
+std::string ValueReader::found() { return atEnd() ? "found nothing" : "found " + inBackticks(peek()); }
 
 double ValueReader::number()
 {
     const std::string_view text = peek();
     const std::size_t sign = !text.empty() && (text[0] == '+' || text[0] == '-') ? 1 : 0;
     // Without this check from_chars would take "inf" and "nan".
-    const bool digit = text.size() > sign && (isDigit(text[sign]) ||
-                                              (text[sign] == '.' && text.size() > sign + 1 && isDigit(text[sign + 1])));
+    const bool digit =
+        text.size() > sign && (isDigit(text[sign]) || (text[sign] == '.' && text.size() > sign + 1 && isDigit(text[sign + 1])));
     if (!digit)
         fail("expected a number, " + found());
     double value = 0;
@@ -187,8 +172,7 @@ double ValueReader::quantity(Dimension dimension, int decimals)
     for (const Unit& unit : units) {
         if (unit.name == name) {
             if (unit.dimension != dimension)
-                failAt(unitPlace,
-                       inBackticks(name) + " is a unit of " + std::string(nameOf(unit.dimension)) + "; " + expected);
+                failAt(unitPlace, inBackticks(name) + " is a unit of " + std::string(nameOf(unit.dimension)) + "; " + expected);
             return timesPowerOfTen(value * unit.metres, unit.exponent + decimals);
         }
         if (unit.dimension == dimension && comparable(unit.name) == comparable(name))

@@ -19,10 +19,7 @@ std::string digits(double value, std::chars_format format)
     return {buffer, end};
 }
 
-std::string quantity(double value, const char* unit)
-{
-    return digits(value, std::chars_format::fixed) + " " + unit;
-}
+std::string quantity(double value, const char* unit) { return digits(value, std::chars_format::fixed) + " " + unit; }
 
 class Writer
 {
@@ -78,13 +75,11 @@ private:
 
     void code(std::string_view key, const CodeBlock& block)
     {
-        if (block.text.find("```") != std::string::npos ||
-            block.text.find_first_of(std::string_view("\r\0", 2)) != std::string::npos)
+        if (block.text.find("```") != std::string::npos || block.text.find_first_of(std::string_view("\r\0", 2)) != std::string::npos)
             throw RangeError("the code block `" + std::string(key) +
                              "` contains ```, a carriage return or a NUL byte and can't be written");
         // Untouched from its first column on, so that it reads back as it was.
-        text_ += indentation_ + std::string(key) + ":\n" + indentation_ + "```\n" + block.text + "\n" + indentation_ +
-                 "```\n";
+        text_ += indentation_ + std::string(key) + ":\n" + indentation_ + "```\n" + block.text + "\n" + indentation_ + "```\n";
     }
 
     void begin(const char* kind, const std::string& name)
@@ -103,8 +98,7 @@ private:
         begin("Scatterer", scatterer.name);
         code(key::numberDensity, scatterer.numberDensity);
         code(key::phaseFunction, scatterer.phaseFunction);
-        entry(key::phaseFunctionType,
-              std::string(phaseFunctionTypeNames[static_cast<int>(scatterer.phaseFunctionType)]));
+        entry(key::phaseFunctionType, std::string(phaseFunctionTypeNames[static_cast<int>(scatterer.phaseFunctionType)]));
         entry(key::crossSectionAt1um, quantity(scatterer.crossSectionAt1um, "m^2"));
         entry(key::angstromExponent, digits(scatterer.angstromExponent, std::chars_format::general));
         entry(key::singleScatteringAlbedo, list(key::singleScatteringAlbedo, scatterer.singleScatteringAlbedo));
@@ -128,9 +122,6 @@ private:
 
 } // namespace
 
-std::string write(const Description& description)
-{
-    return Writer(description).text();
-}
+std::string write(const Description& description) { return Writer(description).text(); }
 
 } // namespace sky::atmo

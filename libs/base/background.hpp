@@ -6,7 +6,8 @@ namespace sky::base {
 
 /// One job at a time on a thread of its own, while the caller goes on. What a job throws is thrown by the next start() or finish(); a job
 /// still running when this goes out of scope is waited for, so what it refers to must live longer.
-class Background {
+class Background
+{
 public:
     template<class Job>
     void start(Job&& job)

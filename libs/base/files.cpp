@@ -99,8 +99,8 @@ std::string readTextFile(const fs::path& path, std::uint64_t limit)
     if (code)
         fail("read", path, code);
     if (size > limit)
-        throw FileError("The file '" + path.string() + "' has " + std::to_string(size) + " bytes; at most " +
-                        std::to_string(limit) + " were expected.");
+        throw FileError("The file '" + path.string() + "' has " + std::to_string(size) + " bytes; at most " + std::to_string(limit) +
+                        " were expected.");
     errno = 0;
     std::ifstream file(path, std::ios::binary);
     std::string text(size, '\0');

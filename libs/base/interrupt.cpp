@@ -17,10 +17,7 @@ std::atomic<bool> interruptFlag = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 
 #ifdef _WIN32
-BOOL WINAPI onConsoleEvent(DWORD)
-{
-    return interruptFlag.exchange(true) ? FALSE : TRUE;
-}
+BOOL WINAPI onConsoleEvent(DWORD) { return interruptFlag.exchange(true) ? FALSE : TRUE; }
 #else
 constexpr int stopSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
@@ -67,9 +64,6 @@ InterruptGuard::~InterruptGuard()
 #endif
 }
 
-bool interrupted()
-{
-    return interruptFlag;
-}
+bool interrupted() { return interruptFlag; }
 
 } // namespace sky

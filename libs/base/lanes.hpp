@@ -27,8 +27,7 @@ inline float exp2Lane(float x)
     const float p =
         1 + y * (0.69314718f +
                  y * (0.24022651f +
-                      y * (0.055504109f +
-                           y * (0.0096181291f + y * (0.0013333558f + y * (0.00015403530f + y * 0.000015252734f))))));
+                      y * (0.055504109f + y * (0.0096181291f + y * (0.0013333558f + y * (0.00015403530f + y * 0.000015252734f))))));
     const auto exponent = static_cast<std::uint32_t>(static_cast<std::int32_t>(whole) + 127) << 23;
     return p * std::bit_cast<float>(exponent);
 }

@@ -1,8 +1,8 @@
 #pragma once
 #include <algorithm>
+#include <exception>
 #include <thread>
 #include <vector>
-#include <exception>
 
 namespace sky::base {
 

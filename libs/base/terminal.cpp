@@ -16,15 +16,9 @@ namespace sky {
 namespace {
 
 #ifdef _WIN32
-HANDLE handleOf(Stream stream)
-{
-    return GetStdHandle(stream == Stream::Output ? STD_OUTPUT_HANDLE : STD_ERROR_HANDLE);
-}
+HANDLE handleOf(Stream stream) { return GetStdHandle(stream == Stream::Output ? STD_OUTPUT_HANDLE : STD_ERROR_HANDLE); }
 #else
-int handleOf(Stream stream)
-{
-    return stream == Stream::Output ? STDOUT_FILENO : STDERR_FILENO;
-}
+int handleOf(Stream stream) { return stream == Stream::Output ? STDOUT_FILENO : STDERR_FILENO; }
 #endif
 
 std::string_view environment(const char* name)

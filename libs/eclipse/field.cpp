@@ -45,8 +45,10 @@ struct Scratch {
 
 ScatteredField::State::State(std::shared_ptr<const AirRays> rays, const physics::SunTable& sun_, const physics::EclipseBodies& bodies,
                              const Orders& orders_, VisibleShare visible_)
-    : air(std::move(rays)), sun(sun_), orders(orders_), visible(std::move(visible_)), frame(bodies), grid(makeGrid(frame, air->settings)),
-      fine{grid.x.refined(std::max(1, air->settings.sunlightRefinement)), grid.y.refined(std::max(1, air->settings.sunlightRefinement))}, turn(air->settings.azimuths, air->degree)
+    : air(std::move(rays)), sun(sun_), orders(orders_), visible(std::move(visible_)), frame(bodies),
+      grid(makeGrid(frame, air->settings)), fine{grid.x.refined(std::max(1, air->settings.sunlightRefinement)),
+                                                 grid.y.refined(std::max(1, air->settings.sunlightRefinement))},
+      turn(air->settings.azimuths, air->degree)
 {
     if (!visible) {
         const auto shadow = physics::singlePrecision(physics::makeShadow(bodies));
@@ -114,9 +116,9 @@ void ScatteredField::State::directRay(const GridRay& ray, int group, Scratch& sc
         const Lane* lower = levels + place.level * finePoints;
         mix(lower, lower + finePoints, place.share, finePoints, scratch.planes.data());
         for (int a = 0; a < azimuths; ++a)
-            addShifted(scratch.shifts[static_cast<std::size_t>(k * azimuths + a)], fine.x.count(), scratch.planes.data(), scratch.planes.data(),
-                       &ray.directWeights[static_cast<std::size_t>((group * nodes + k) * scatterers)], scatterers, scratch.row.data(),
-                       &scratch.light[static_cast<std::size_t>(a * scatterers * gridPoints)]);
+            addShifted(scratch.shifts[static_cast<std::size_t>(k * azimuths + a)], fine.x.count(), scratch.planes.data(),
+                       scratch.planes.data(), &ray.directWeights[static_cast<std::size_t>((group * nodes + k) * scatterers)], scatterers,
+                       scratch.row.data(), &scratch.light[static_cast<std::size_t>(a * scatterers * gridPoints)]);
     }
     const Lane* phase = &air->phase[g * static_cast<std::size_t>(scatterers * (air->degree + 1))];
     const float sine = std::sqrt(std::max(0.f, 1 - ray.mu * ray.mu));
@@ -127,8 +129,9 @@ void ScatteredField::State::directRay(const GridRay& ray, int group, Scratch& sc
             scratch.nu[p] = std::clamp(ray.mu * static_cast<float>(sunAt[p][2]) +
                                            sine * (c * static_cast<float>(sunAt[p][0]) + s * static_cast<float>(sunAt[p][1])),
                                        -1.f, 1.f);
-        scatterSunlight(air->degree, scatterers, phase, scratch.nu.data(), &scratch.light[static_cast<std::size_t>(a * scatterers * gridPoints)],
-                        gridPoints, &scratch.arrived[static_cast<std::size_t>(a * gridPoints)]);
+        scatterSunlight(air->degree, scatterers, phase, scratch.nu.data(),
+                        &scratch.light[static_cast<std::size_t>(a * scatterers * gridPoints)], gridPoints,
+                        &scratch.arrived[static_cast<std::size_t>(a * gridPoints)]);
         if (ray.hitsGround) {
             const Lane* ground = &sunnyGround[g * static_cast<std::size_t>(finePoints)];
             addShifted(scratch.shifts[static_cast<std::size_t>(nodes * azimuths + a)], fine.x.count(), ground, ground, &ray.ground[g], 1,
@@ -146,8 +149,9 @@ void ScatteredField::State::scatteredRay(const GridRay& ray, int group, Scratch&
     const auto addPlanes = [&](int node, const Lane* planes, const Lane* weights) {
         for (int a = 0; a < azimuths; ++a) {
             const int step = weights ? 0 : gridPoints; // the ground looks the same from all sides
-            addShifted(scratch.shifts[static_cast<std::size_t>(node * azimuths + a)], grid.x.count(), planes + a * step, planes + turn.mirror(a) * step, weights, 1,
-                       scratch.row.data(), &scratch.arrived[static_cast<std::size_t>(a * gridPoints)]);
+            addShifted(scratch.shifts[static_cast<std::size_t>(node * azimuths + a)], grid.x.count(), planes + a * step,
+                       planes + turn.mirror(a) * step, weights, 1, scratch.row.data(),
+                       &scratch.arrived[static_cast<std::size_t>(a * gridPoints)]);
         }
     };
     for (int k = 0; k < nodes; ++k) {

@@ -28,8 +28,8 @@ using VisibleShare = std::function<float(const std::array<float, 3>& point)>;
 
 /// A ray that is seen, from where it begins inside the air.
 struct ViewRay {
-    double altitude = 0;      ///< m, 0 .. top
-    double mu = 1;            ///< cosine of its zenith angle there
+    double altitude = 0; ///< m, 0 .. top
+    double mu = 1;       ///< cosine of its zenith angle there
     bool hitsGround = false;
     double groundDistance = 0; ///< m, from below the camera to below that place: 0 unless the camera is above the air
 };

@@ -13,10 +13,7 @@ Vector combine(double p, const Vector& a, double q, const Vector& b)
     return {p * a[0] + q * b[0], p * a[1] + q * b[1], p * a[2] + q * b[2]};
 }
 Vector unit(const Vector& a) { return combine(1 / length(a), a, 0, a); }
-Vector cross(const Vector& a, const Vector& b)
-{
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
+Vector cross(const Vector& a, const Vector& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
 
 /// A unit vector across a unit vector: towards `wish` if that is not parallel.
 Vector acrossTo(const Vector& axis, const Vector& wish)
@@ -34,12 +31,13 @@ constexpr double central = 1e3;
 
 } // namespace
 
-Frame::Frame(const physics::EclipseBodies& bodies)
-    : planet_(bodies.planet), cameraRadius_(bodies.planet.radius + bodies.cameraAltitude)
+Frame::Frame(const physics::EclipseBodies& bodies) : planet_(bodies.planet), cameraRadius_(bodies.planet.radius + bodies.cameraAltitude)
 {
     const Vector zenith{0, 0, 1}, centre{0, 0, -cameraRadius_};
-    const Vector sun = combine(1, physics::placeOfBody(planet_, bodies.cameraAltitude, bodies.sunDirection, bodies.sunDistance), -1, centre);
-    const Vector moon = combine(1, physics::placeOfBody(planet_, bodies.cameraAltitude, bodies.moonDirection, bodies.moonDistance), -1, centre);
+    const Vector sun =
+        combine(1, physics::placeOfBody(planet_, bodies.cameraAltitude, bodies.sunDirection, bodies.sunDistance), -1, centre);
+    const Vector moon =
+        combine(1, physics::placeOfBody(planet_, bodies.cameraAltitude, bodies.moonDirection, bodies.moonDistance), -1, centre);
     sun_ = unit(sun);
     const Vector axis = unit(combine(1, sun, -1, moon)); // from the Moon to the Sun
     const Vector nearest = combine(1, moon, -dot(moon, axis), axis);
@@ -88,9 +86,7 @@ double Frame::azimuthOf(const double azimuth) const
 std::vector<double> clusteredNodes(const double from, const double to, const std::array<double, 2>& centres,
                                    const std::array<double, 2>& cores, const int count)
 {
-    const auto crowd = [&](double x) {
-        return std::asinh((x - centres[0]) / cores[0]) + std::asinh((x - centres[1]) / cores[1]);
-    };
+    const auto crowd = [&](double x) { return std::asinh((x - centres[0]) / cores[0]) + std::asinh((x - centres[1]) / cores[1]); };
     const double first = crowd(from), last = crowd(to);
     std::vector<double> nodes{from};
     for (int i = 1; i + 1 < count; ++i) {

@@ -41,7 +41,7 @@ public:
 private:
     physics::Planet planet_;
     double cameraRadius_;
-    Vector sun_;                  // from the planet's centre
+    Vector sun_;                    // from the planet's centre
     Vector ahead_, aside_, upward_; // right- or left-handed: aside points to the observer's side
     double observer_ = 0, stretch_ = 1, shadow_ = 0, shadowSunSine_ = 1;
 };

@@ -199,8 +199,8 @@ void scatterSunlight(int degree, int scatterers, const Lane* phase, const float*
     for (int p = 0; p < points; ++p) {
         float legendre[mostDegree + 1] = {1, nu[p]};
         for (int l = 1; l < degree; ++l)
-            legendre[l + 1] = (static_cast<float>(2 * l + 1) * nu[p] * legendre[l] - static_cast<float>(l) * legendre[l - 1]) /
-                              static_cast<float>(l + 1);
+            legendre[l + 1] =
+                (static_cast<float>(2 * l + 1) * nu[p] * legendre[l] - static_cast<float>(l) * legendre[l - 1]) / static_cast<float>(l + 1);
         Lane sum{};
         for (int s = 0; s < scatterers; ++s) {
             Lane value{};

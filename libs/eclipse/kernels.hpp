@@ -19,7 +19,8 @@ void radiate(const Turn& turn, const Lane* lower, const Lane* upper, float share
 /// Moments of the light that arrives at the points from one zenith angle: adds to `moments`.
 ///   planes   [azimuth][point]: radiance;  factors  [lm];  weight  solid angle of all azimuths together
 ///   rings    [point] or null: gets the mean radiance times `weight` times `cosine` added, an irradiance
-void project(const Turn& turn, const Lane* planes, const float* factors, float weight, int points, Lane* moments, Lane* rings, float cosine);
+void project(const Turn& turn, const Lane* planes, const float* factors, float weight, int points, Lane* moments, Lane* rings,
+             float cosine);
 
 /// A shift of a plane of points: where each point of `to` finds itself on `from`.
 struct Shift {

@@ -70,8 +70,7 @@ std::vector<double> sunlightAltitudes(const physics::Planet& planet, const Level
 FieldSettings checked(FieldSettings s)
 {
     if (s.azimuths < 4 || s.azimuths % 4 != 0)
-        throw RangeError("The number of azimuths of an eclipse's field is " + std::to_string(s.azimuths) +
-                         "; expected a multiple of 4.");
+        throw RangeError("The number of azimuths of an eclipse's field is " + std::to_string(s.azimuths) + "; expected a multiple of 4.");
     if (s.along < 2 || s.across < 2)
         throw RangeError("The grid of an eclipse's field has " + std::to_string(s.along) + " x " + std::to_string(s.across) +
                          " points; expected 2 x 2 or more.");
@@ -107,7 +106,8 @@ AirRays::AirRays(const physics::Medium& medium_, const physics::Profile& profile
         for (const int s : optics.scatterers)
             for (int l = 0; l <= degree; ++l) {
                 phase.emplace_back();
-                fillLane(phase.back(), &optics.moments[static_cast<std::size_t>((s * (optics.degree + 1) + l) * wavelengths)], g, wavelengths);
+                fillLane(phase.back(), &optics.moments[static_cast<std::size_t>((s * (optics.degree + 1) + l) * wavelengths)], g,
+                         wavelengths);
                 phase.back() *= static_cast<float>(2 * l + 1);
             }
     physics::MomentSettings quadrature;

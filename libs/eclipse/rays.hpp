@@ -20,8 +20,8 @@ struct GridRay {
     Lanes directWeights;                  ///< [group][node][scatterer]: weight over 4 pi
     Lanes coefficients;                   ///< [group][node][lm]: sum over scatterers of weight lambda_l, times the harmonic factor
     float groundDistance = 0;
-    Lanes ground;                         ///< [group]: transmittance times albedo / pi
-    std::vector<float> factors;           ///< [lm]: the harmonic factors at mu
+    Lanes ground;               ///< [group]: transmittance times albedo / pi
+    std::vector<float> factors; ///< [lm]: the harmonic factors at mu
 };
 
 /// Levels in altitude with linear interpolation in sqrt(r^2 - R^2).

@@ -5,21 +5,21 @@ namespace sky::eclipse {
 /// How finely the field around an observer is computed. docs/eclipses.md has what each costs and brings. Errors that eclipsed
 /// and uneclipsed light have in common cancel, so that much less than the ordinary solver's settings will do.
 struct FieldSettings {
-    int altitudes = 12;       ///< levels, over the air that scatters light worth mentioning, before the medium asks for more
-    int along = 17;           ///< points in the mirror plane, towards the Sun and away, >= 2
-    int across = 9;           ///< points away from the mirror plane, >= 2
-    double reach = 1200e3;    ///< m: how far the grid goes beyond the observer and the shadow
-    double core = 50e3;       ///< m: within about this distance of both the points stand evenly, then ever wider
-    int degree = 5;           ///< of the harmonics, at most mostDegree and that of the optics
-    int groundDirections = 6; ///< zenith angles from nadir to the horizon
-    int limbDirections = 3;   ///< from the horizon to the horizontal
-    int skyDirections = 6;    ///< from the horizontal to the zenith
-    int azimuths = 8;         ///< over the whole turn, a multiple of 4
-    int directNodes = 24;     ///< along a ray, for sunlight
-    int nodes = 12;           ///< along a ray, for scattered light
+    int altitudes = 12;         ///< levels, over the air that scatters light worth mentioning, before the medium asks for more
+    int along = 17;             ///< points in the mirror plane, towards the Sun and away, >= 2
+    int across = 9;             ///< points away from the mirror plane, >= 2
+    double reach = 1200e3;      ///< m: how far the grid goes beyond the observer and the shadow
+    double core = 50e3;         ///< m: within about this distance of both the points stand evenly, then ever wider
+    int degree = 5;             ///< of the harmonics, at most mostDegree and that of the optics
+    int groundDirections = 6;   ///< zenith angles from nadir to the horizon
+    int limbDirections = 3;     ///< from the horizon to the horizontal
+    int skyDirections = 6;      ///< from the horizontal to the zenith
+    int azimuths = 8;           ///< over the whole turn, a multiple of 4
+    int directNodes = 24;       ///< along a ray, for sunlight
+    int nodes = 12;             ///< along a ray, for scattered light
     int sunlightAltitudes = 32; ///< levels at which sunlight is known
     int sunlightRefinement = 1; ///< points of sunlight per point of the grid, along and across
-    int viewNodes = 32;       ///< along a ray that is seen
+    int viewNodes = 32;         ///< along a ray that is seen
 };
 
 /// Largest degree of the harmonics.
@@ -27,8 +27,8 @@ constexpr int mostDegree = 6;
 
 /// Events of scattering or reflection that are counted.
 struct Orders {
-    int orders = 4;        ///< of the light that is seen: the field has one event less. 2: light of second order alone
-    bool all = false;      ///< go on until closing the series as a geometric one changes nothing above the tolerance
+    int orders = 4;          ///< of the light that is seen: the field has one event less. 2: light of second order alone
+    bool all = false;        ///< go on until closing the series as a geometric one changes nothing above the tolerance
     double tolerance = 5e-3; ///< relative; with `all`
 };
 

@@ -36,13 +36,13 @@ struct ScatteredField::State {
         return &light.moments[(static_cast<std::size_t>(group) * levels() + static_cast<std::size_t>(level)) * points() * harmonics()];
     }
 
-    void shine();           ///< sunlight at all points
-    Light gather() const;   ///< the light of the next event
+    void shine();         ///< sunlight at all points
+    Light gather() const; ///< the light of the next event
     void gatherLevel(int level, Light& light) const;
     void directRay(const GridRay& ray, int group, struct Scratch& scratch) const;
     void scatteredRay(const GridRay& ray, int group, struct Scratch& scratch) const;
     void add(const Light& light);
-    bool close();           ///< adds the tail of the series, if that is known well enough
+    bool close(); ///< adds the tail of the series, if that is known well enough
 };
 
 } // namespace sky::eclipse

@@ -19,7 +19,11 @@ float ratioOf(float eclipsed, float uneclipsed) { return uneclipsed > dark ? std
 class Fold
 {
 public:
-    Fold(int degree, int points) : degree_(degree), terms_(2 * degree + 1), folded_(static_cast<std::size_t>(points * terms_)), known_(static_cast<std::size_t>(points)) {}
+    Fold(int degree, int points)
+        : degree_(degree), terms_(2 * degree + 1), folded_(static_cast<std::size_t>(points * terms_)),
+          known_(static_cast<std::size_t>(points))
+    {
+    }
 
     void begin(const Lane* lower, const Lane* upper, float share, const Lane* coefficients)
     {
@@ -36,7 +40,8 @@ public:
         Lane* terms = &folded_[static_cast<std::size_t>(point * terms_)];
         auto& known = known_[static_cast<std::size_t>(point)];
         if (!known)
-            foldPoint(degree_, lower_ + point * allHarmonics(degree_), upper_ + point * allHarmonics(degree_), share_, coefficients_, terms);
+            foldPoint(degree_, lower_ + point * allHarmonics(degree_), upper_ + point * allHarmonics(degree_), share_, coefficients_,
+                      terms);
         known = 1;
         return terms;
     }
@@ -126,7 +131,8 @@ ViewLight ScatteredField::view(const TracedViews& views, const std::vector<doubl
     const AirRays& air = *s.air;
     const int wavelengths = air.wavelengths, degree = air.degree, count = static_cast<int>(azimuths.size());
     const std::size_t size = views.rays.size() * azimuths.size() * static_cast<std::size_t>(wavelengths);
-    ViewLight result{count, wavelengths, std::vector<float>(size), std::vector<float>(size), std::vector<float>(size), std::vector<float>(size)};
+    ViewLight result{
+        count, wavelengths, std::vector<float>(size), std::vector<float>(size), std::vector<float>(size), std::vector<float>(size)};
     if (s.total.moments.empty())
         return result;
 
@@ -140,7 +146,8 @@ ViewLight ScatteredField::view(const TracedViews& views, const std::vector<doubl
             sines.push_back(static_cast<float>(std::sin(m * here)));
         }
     }
-    const auto store = [&](const Lane& light, std::size_t ray, int azimuth, int group, std::vector<float>& eclipsed, std::vector<float>& uneclipsed) {
+    const auto store = [&](const Lane& light, std::size_t ray, int azimuth, int group, std::vector<float>& eclipsed,
+                           std::vector<float>& uneclipsed) {
         for (int i = 0; i < waves && group * waves + i < wavelengths; ++i) {
             const auto at = (ray * azimuths.size() + static_cast<std::size_t>(azimuth)) * static_cast<std::size_t>(wavelengths) +
                             static_cast<std::size_t>(group * waves + i);

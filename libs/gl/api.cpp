@@ -18,10 +18,7 @@ struct Api::State {
 
 namespace {
 
-GLADapiproc callLoader(void* user, const char* name)
-{
-    return reinterpret_cast<GLADapiproc>((*static_cast<const Loader*>(user))(name));
-}
+GLADapiproc callLoader(void* user, const char* name) { return reinterpret_cast<GLADapiproc>((*static_cast<const Loader*>(user))(name)); }
 
 std::string text(const GladGLContext& gl, GLenum what)
 {
@@ -161,9 +158,9 @@ void checkErrors(const Api& api, std::string_view stage, std::string_view label)
         where += " (" + std::string(label) + ")";
 
     const auto resetStatus = api.hasUnsuffixed(3, 2) && api->GetGraphicsResetStatus ? api->GetGraphicsResetStatus
-                             : api->GetGraphicsResetStatusKHR ? api->GetGraphicsResetStatusKHR
-                             : api->GetGraphicsResetStatusEXT ? api->GetGraphicsResetStatusEXT
-                                                              : api->GetGraphicsResetStatusARB;
+                             : api->GetGraphicsResetStatusKHR                       ? api->GetGraphicsResetStatusKHR
+                             : api->GetGraphicsResetStatusEXT                       ? api->GetGraphicsResetStatusEXT
+                                                                                    : api->GetGraphicsResetStatusARB;
     const char* const lost = ": the graphics driver was reset and the OpenGL context is lost; start again, and try another "
                              "device if it happens again.";
     if (resetStatus && resetStatus() != GL_NO_ERROR)
@@ -186,8 +183,7 @@ void checkErrors(const Api& api, std::string_view stage, std::string_view label)
 void memoryBarrier(const Api& api)
 {
     api->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
-                       GL_UNIFORM_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT |
-                       GL_FRAMEBUFFER_BARRIER_BIT);
+                       GL_UNIFORM_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
 }
 
 } // namespace sky::gl

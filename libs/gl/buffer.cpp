@@ -23,8 +23,8 @@ Buffer::Buffer(const Api& context, std::string labelText, std::size_t byteCount,
 void Buffer::checkRange(std::size_t count, std::size_t offset) const
 {
     if (offset > bytes_ || count > bytes_ - offset)
-        throw RangeError("Buffer \"" + label() + "\": bytes " + std::to_string(offset) + " to " +
-                         std::to_string(offset + count) + " are outside its size, " + std::to_string(bytes_) + ".");
+        throw RangeError("Buffer \"" + label() + "\": bytes " + std::to_string(offset) + " to " + std::to_string(offset + count) +
+                         " are outside its size, " + std::to_string(bytes_) + ".");
 }
 
 void Buffer::upload(const void* data, std::size_t count, std::size_t offset)
@@ -45,8 +45,8 @@ void Buffer::rewrite(std::size_t count, const std::function<void(void*)>& fill)
         return;
     const Api& gl = api();
     gl->BindBuffer(GL_COPY_WRITE_BUFFER, name());
-    void* const mapped = gl->MapBufferRange(GL_COPY_WRITE_BUFFER, 0, static_cast<GLsizeiptr>(count),
-                                            GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT);
+    void* const mapped =
+        gl->MapBufferRange(GL_COPY_WRITE_BUFFER, 0, static_cast<GLsizeiptr>(count), GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT);
     if (mapped)
         fill(mapped);
     const bool intact = mapped && gl->UnmapBuffer(GL_COPY_WRITE_BUFFER);
@@ -65,8 +65,8 @@ void Buffer::downloadTo(void* to, std::size_t count, std::size_t offset) const
     const Api& gl = api();
     gl->BindBuffer(GL_COPY_WRITE_BUFFER, name());
     // Mapping instead of glGetBufferSubData, which OpenGL ES lacks.
-    const void* mapped = gl->MapBufferRange(GL_COPY_WRITE_BUFFER, static_cast<GLintptr>(offset),
-                                            static_cast<GLsizeiptr>(count), GL_MAP_READ_BIT);
+    const void* mapped =
+        gl->MapBufferRange(GL_COPY_WRITE_BUFFER, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(count), GL_MAP_READ_BIT);
     if (mapped)
         std::memcpy(to, mapped, count);
     const bool intact = mapped && gl->UnmapBuffer(GL_COPY_WRITE_BUFFER);

@@ -17,13 +17,11 @@ public:
     /// throws GlError where the driver has no memory left, RangeError where bytes is zero
     Buffer(const Api& api, std::string label, std::size_t bytes, const void* data = nullptr);
     template<class T>
-    Buffer(const Api& api, std::string label, std::span<const T> values)
-        : Buffer(api, std::move(label), values.size_bytes(), values.data())
+    Buffer(const Api& api, std::string label, std::span<const T> values) : Buffer(api, std::move(label), values.size_bytes(), values.data())
     {
     }
     template<class T>
-    Buffer(const Api& api, std::string label, const std::vector<T>& values)
-        : Buffer(api, std::move(label), std::span<const T>(values))
+    Buffer(const Api& api, std::string label, const std::vector<T>& values) : Buffer(api, std::move(label), std::span<const T>(values))
     {
     }
 

@@ -17,8 +17,7 @@ const char* severityName(GLenum severity)
     }
 }
 
-void GLAD_API_PTR passDebugMessage(GLenum, GLenum type, GLuint, GLenum severity, GLsizei length, const GLchar* message,
-                                   const void* user)
+void GLAD_API_PTR passDebugMessage(GLenum, GLenum type, GLuint, GLenum severity, GLsizei length, const GLchar* message, const void* user)
 {
     const auto& sink = *static_cast<const std::function<void(const std::string&)>*>(user);
     const std::string text = length < 0 ? std::string(message) : std::string(message, static_cast<std::size_t>(length));
@@ -81,9 +80,8 @@ std::vector<DeviceInfo> listDevices(const HeadlessOptions&) { return {}; }
 HeadlessContext::HeadlessContext(const HeadlessOptions& options) : implementation_(openHeadless(options))
 {
     implementation_->makeCurrent();
-    api_ = std::make_unique<Api>(Api::load(loader(), [implementation = implementation_.get()](const auto& action) {
-        implementation->runCurrent(action);
-    }));
+    api_ = std::make_unique<Api>(
+        Api::load(loader(), [implementation = implementation_.get()](const auto& action) { implementation->runCurrent(action); }));
     if (options.debug != DebugOutput::off && options.debugSink)
         installDebugOutput(options);
 }

@@ -69,8 +69,7 @@ void Framebuffer::attach(int index, const Texture& texture, int slice)
     const GLenum status = gl->CheckFramebufferStatus(GL_FRAMEBUFFER);
     checkErrors(gl, "attaching \"" + texture.label() + "\" to a framebuffer", label());
     if (status != GL_FRAMEBUFFER_COMPLETE)
-        throw GlError("Framebuffer \"" + label() + "\" with texture \"" + texture.label() +
-                      "\": " + completenessName(status) + ".");
+        throw GlError("Framebuffer \"" + label() + "\" with texture \"" + texture.label() + "\": " + completenessName(status) + ".");
 }
 
 std::vector<float> Framebuffer::readPixels(int index, bool bytes) const

@@ -49,8 +49,7 @@ struct Egl {
     const char* clientExtensions = queryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     PFNEGLQUERYDEVICESEXTPROC queryDevices = optional<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
     PFNEGLQUERYDEVICESTRINGEXTPROC queryDeviceString = optional<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
-    PFNEGLGETPLATFORMDISPLAYEXTPROC getPlatformDisplay =
-        optional<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
+    PFNEGLGETPLATFORMDISPLAYEXTPROC getPlatformDisplay = optional<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
 
     template<class Function>
     Function optional(const char* name) const
@@ -60,8 +59,7 @@ struct Egl {
 
     std::vector<EGLDeviceEXT> devices() const
     {
-        const bool known = hasWord(clientExtensions, "EGL_EXT_device_enumeration") ||
-                           hasWord(clientExtensions, "EGL_EXT_device_base");
+        const bool known = hasWord(clientExtensions, "EGL_EXT_device_enumeration") || hasWord(clientExtensions, "EGL_EXT_device_base");
         EGLint count = 0;
         if (!known || !queryDevices || !getPlatformDisplay || !queryDevices(0, nullptr, &count) || count <= 0)
             return {};
@@ -86,11 +84,10 @@ struct Egl {
 
     std::string failure(const std::string& function) const
     {
-        static constexpr const char* names[] = {"EGL_SUCCESS",       "EGL_NOT_INITIALIZED", "EGL_BAD_ACCESS",
-                                                "EGL_BAD_ALLOC",     "EGL_BAD_ATTRIBUTE",   "EGL_BAD_CONFIG",
-                                                "EGL_BAD_CONTEXT",   "EGL_BAD_CURRENT_SURFACE", "EGL_BAD_DISPLAY",
-                                                "EGL_BAD_MATCH",     "EGL_BAD_NATIVE_PIXMAP", "EGL_BAD_NATIVE_WINDOW",
-                                                "EGL_BAD_PARAMETER", "EGL_BAD_SURFACE",     "EGL_CONTEXT_LOST"};
+        static constexpr const char* names[] = {
+            "EGL_SUCCESS",           "EGL_NOT_INITIALIZED",   "EGL_BAD_ACCESS",          "EGL_BAD_ALLOC",   "EGL_BAD_ATTRIBUTE",
+            "EGL_BAD_CONFIG",        "EGL_BAD_CONTEXT",       "EGL_BAD_CURRENT_SURFACE", "EGL_BAD_DISPLAY", "EGL_BAD_MATCH",
+            "EGL_BAD_NATIVE_PIXMAP", "EGL_BAD_NATIVE_WINDOW", "EGL_BAD_PARAMETER",       "EGL_BAD_SURFACE", "EGL_CONTEXT_LOST"};
         const EGLint code = getError();
         const std::size_t index = static_cast<std::size_t>(code - EGL_SUCCESS);
         return function + " fails with " + (index < std::size(names) ? names[index] : std::to_string(code));
@@ -102,8 +99,7 @@ struct Egl {
 class EglImplementation final : public HeadlessImplementation
 {
 public:
-    EglImplementation(std::shared_ptr<const Egl> egl, EGLDisplay display, std::string description,
-                      const HeadlessOptions& options)
+    EglImplementation(std::shared_ptr<const Egl> egl, EGLDisplay display, std::string description, const HeadlessOptions& options)
         : egl_(std::move(egl)), display_(display), api_(options.version.es ? EGL_OPENGL_ES_API : EGL_OPENGL_API),
           description_(std::move(description))
     {
@@ -188,8 +184,7 @@ public:
 private:
     EGLConfig chooseConfig(const HeadlessOptions& options, const char* extensions, bool surfaceless) const
     {
-        if (surfaceless && (hasWord(extensions, "EGL_KHR_no_config_context") ||
-                            hasWord(extensions, "EGL_MESA_configless_context")))
+        if (surfaceless && (hasWord(extensions, "EGL_KHR_no_config_context") || hasWord(extensions, "EGL_MESA_configless_context")))
             return EGLConfig{};
         const EGLint attributes[] = {EGL_SURFACE_TYPE, surfaceless ? EGL_DONT_CARE : EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE,
                                      options.version.es ? EGL_OPENGL_ES3_BIT : EGL_OPENGL_BIT, EGL_NONE};
@@ -202,8 +197,7 @@ private:
 
     void createContext(EGLConfig config, const HeadlessOptions& options, const char* extensions, bool egl15)
     {
-        std::vector<EGLint> attributes{EGL_CONTEXT_MAJOR_VERSION, options.version.major, EGL_CONTEXT_MINOR_VERSION,
-                                       options.version.minor};
+        std::vector<EGLint> attributes{EGL_CONTEXT_MAJOR_VERSION, options.version.major, EGL_CONTEXT_MINOR_VERSION, options.version.minor};
         if (!options.version.es)
             attributes.insert(attributes.end(), {EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT});
         if (options.debug != DebugOutput::off) {
@@ -235,9 +229,8 @@ private:
     EGLSurface surface_ = EGL_NO_SURFACE;
 };
 
-std::unique_ptr<HeadlessImplementation> openDevice(const std::shared_ptr<const Egl>& egl,
-                                                   const std::vector<EGLDeviceEXT>& devices, std::size_t index,
-                                                   const HeadlessOptions& options)
+std::unique_ptr<HeadlessImplementation> openDevice(const std::shared_ptr<const Egl>& egl, const std::vector<EGLDeviceEXT>& devices,
+                                                   std::size_t index, const HeadlessOptions& options)
 {
     const EGLDisplay display = egl->getPlatformDisplay(EGL_PLATFORM_DEVICE_EXT, devices[index], nullptr);
     return std::make_unique<EglImplementation>(egl, display, "EGL device " + std::to_string(index), options);
@@ -271,8 +264,8 @@ std::unique_ptr<HeadlessImplementation> openEgl(const HeadlessOptions& options)
     if (options.device >= 0) {
         const auto index = static_cast<std::size_t>(options.device);
         if (index >= devices.size())
-            throw GlError("there is no device " + std::to_string(options.device) + "; EGL lists " +
-                          std::to_string(devices.size()) + ", counted from 0");
+            throw GlError("there is no device " + std::to_string(options.device) + "; EGL lists " + std::to_string(devices.size()) +
+                          ", counted from 0");
         return openDevice(egl, devices, index, options);
     }
 
@@ -313,8 +306,7 @@ std::unique_ptr<HeadlessImplementation> openEgl(const HeadlessOptions& options)
         return software;
 
     if (auto made = attempt("default display", [&] {
-            return std::make_unique<EglImplementation>(egl, egl->getDisplay(EGL_DEFAULT_DISPLAY), "EGL default display",
-                                                       options);
+            return std::make_unique<EglImplementation>(egl, egl->getDisplay(EGL_DEFAULT_DISPLAY), "EGL default display", options);
         }))
         return made;
     if (software)

@@ -12,8 +12,8 @@ namespace {
 
 using OsmesaContext = void*;
 
-constexpr int osmesaFormat = 0x22, osmesaRgba = GL_RGBA, osmesaProfile = 0x33, osmesaCoreProfile = 0x34,
-              osmesaMajorVersion = 0x36, osmesaMinorVersion = 0x37;
+constexpr int osmesaFormat = 0x22, osmesaRgba = GL_RGBA, osmesaProfile = 0x33, osmesaCoreProfile = 0x34, osmesaMajorVersion = 0x36,
+              osmesaMinorVersion = 0x37;
 
 class OsmesaImplementation final : public HeadlessImplementation
 {
@@ -27,10 +27,14 @@ public:
     {
         if (options.version.es)
             throw GlError("OSMesa has no OpenGL ES");
-        const int attributes[] = {osmesaFormat,       osmesaRgba,
-                                  osmesaProfile,      osmesaCoreProfile,
-                                  osmesaMajorVersion, options.version.major,
-                                  osmesaMinorVersion, options.version.minor,
+        const int attributes[] = {osmesaFormat,
+                                  osmesaRgba,
+                                  osmesaProfile,
+                                  osmesaCoreProfile,
+                                  osmesaMajorVersion,
+                                  options.version.major,
+                                  osmesaMinorVersion,
+                                  options.version.minor,
                                   0};
         context_ = createContext_(attributes, nullptr);
         if (!context_)

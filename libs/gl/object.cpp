@@ -60,8 +60,7 @@ void Object::free() noexcept
 
 void Object::applyLabel() const
 {
-    static constexpr GLenum identifiers[] = {GL_BUFFER,       GL_TEXTURE, GL_FRAMEBUFFER,
-                                             GL_VERTEX_ARRAY, GL_PROGRAM, GL_QUERY};
+    static constexpr GLenum identifiers[] = {GL_BUFFER, GL_TEXTURE, GL_FRAMEBUFFER, GL_VERTEX_ARRAY, GL_PROGRAM, GL_QUERY};
     api_.label(identifiers[static_cast<int>(kind_)], name_, label_);
 }
 

@@ -6,10 +6,7 @@
 
 namespace sky::gl {
 
-Program::Program(const Api& context, std::string labelText) : Object(context, Kind::program, std::move(labelText))
-{
-    applyLabel();
-}
+Program::Program(const Api& context, std::string labelText) : Object(context, Kind::program, std::move(labelText)) { applyLabel(); }
 
 GLint Program::location(std::string_view uniform) const
 {
@@ -83,9 +80,7 @@ void Program::set(std::string_view uniform, const std::array<int, 4>& value)
 }
 void Program::setFloats(std::string_view uniform, std::span<const float> values)
 {
-    setUniform(uniform, [&](const Api& gl, GLint at) {
-        gl->Uniform1fv(at, static_cast<GLsizei>(values.size()), values.data());
-    });
+    setUniform(uniform, [&](const Api& gl, GLint at) { gl->Uniform1fv(at, static_cast<GLsizei>(values.size()), values.data()); });
 }
 void Program::setVec4s(std::string_view uniform, std::span<const std::array<float, 4>> values)
 {
@@ -126,8 +121,8 @@ void Program::dispatch(unsigned x, unsigned y, unsigned z) const
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const int most = api().limits().workGroupCount[axis];
         if (groups[axis] > static_cast<unsigned>(most))
-            throw RangeError("Program \"" + label() + "\": " + std::to_string(groups[axis]) + " work groups along " +
-                             "xyz"[axis] + "; this driver allows 0 to " + std::to_string(most) + ".");
+            throw RangeError("Program \"" + label() + "\": " + std::to_string(groups[axis]) + " work groups along " + "xyz"[axis] +
+                             "; this driver allows 0 to " + std::to_string(most) + ".");
     }
     whileUsed([&] { api()->DispatchCompute(x, y, z); });
 }

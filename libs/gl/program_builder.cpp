@@ -75,11 +75,11 @@ void link(const Program& program)
 
 Program ProgramBuilder::build(const ProgramSource& source) const
 {
-    const bool isCompute = std::any_of(source.stages.begin(), source.stages.end(),
-                                       [](const auto& stage) { return stage.stage == ShaderStage::compute; });
+    const bool isCompute =
+        std::any_of(source.stages.begin(), source.stages.end(), [](const auto& stage) { return stage.stage == ShaderStage::compute; });
     if (isCompute && !api_.hasCompute())
-        throw GlError("Program \"" + source.label + "\" needs compute shaders, OpenGL 4.3; this context is \"" +
-                      api_.versionText() + "\".");
+        throw GlError("Program \"" + source.label + "\" needs compute shaders, OpenGL 4.3; this context is \"" + api_.versionText() +
+                      "\".");
     std::string version = source.version;
     if (version.empty())
         version = api_.isEs() ? "300 es" : isCompute ? "430 core" : "330 core";
@@ -108,10 +108,8 @@ Program ProgramBuilder::compute(const std::string& label, const std::string& pat
 Program ProgramBuilder::graphics(const std::string& label, const std::string& vertexPath, const std::string& fragmentPath,
                                  std::vector<Define> defines, std::vector<Snippet> snippets) const
 {
-    return build({label,
-                  {{ShaderStage::vertex, vertexPath}, {ShaderStage::fragment, fragmentPath}},
-                  std::move(defines),
-                  std::move(snippets)});
+    return build(
+        {label, {{ShaderStage::vertex, vertexPath}, {ShaderStage::fragment, fragmentPath}}, std::move(defines), std::move(snippets)});
 }
 
 } // namespace sky::gl

@@ -172,8 +172,8 @@ private:
             return;
         const int origin = static_cast<int>(result_.origins.size());
         if (name.starts_with("user:")) {
-            const auto snippet = std::find_if(snippets_.begin(), snippets_.end(),
-                                              [&](const Snippet& s) { return s.name == name.substr(5); });
+            const auto snippet =
+                std::find_if(snippets_.begin(), snippets_.end(), [&](const Snippet& s) { return s.name == name.substr(5); });
             if (snippet == snippets_.end())
                 throw GlError(from + "no block is given for #include \"" + std::string(name) + "\".");
             checkSelfContained(*snippet);
@@ -218,8 +218,8 @@ private:
 
 } // namespace
 
-ShaderText expandShader(const SourceProvider& source, std::string_view path, const std::string& version,
-                        const std::vector<Define>& defines, const std::vector<Snippet>& snippets)
+ShaderText expandShader(const SourceProvider& source, std::string_view path, const std::string& version, const std::vector<Define>& defines,
+                        const std::vector<Snippet>& snippets)
 {
     return Expander(source, snippets).run(path, version, defines);
 }

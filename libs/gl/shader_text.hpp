@@ -23,8 +23,8 @@ struct Define {
 struct Snippet {
     std::string name;
     std::string text;
-    std::string file;   ///< where it stands, for messages
-    int firstLine = 1;  ///< line of `file` on which `text` starts
+    std::string file;            ///< where it stands, for messages
+    int firstLine = 1;           ///< line of `file` on which `text` starts
     bool fromDescription = true; ///< errors in it are AtmoError; otherwise GlError
 };
 
@@ -56,8 +56,8 @@ struct ShaderText {
 ///   throws    GlError   a missing file or snippet, or an include cycle through the entry file
 ///             AtmoError a block of a description that could disturb the text around it: an open comment or bracket,
 ///                       #include, #line, #version or #extension
-ShaderText expandShader(const SourceProvider& source, std::string_view path, const std::string& version,
-                        const std::vector<Define>& defines, const std::vector<Snippet>& snippets);
+ShaderText expandShader(const SourceProvider& source, std::string_view path, const std::string& version, const std::vector<Define>& defines,
+                        const std::vector<Snippet>& snippets);
 
 /// One message of a driver's log. `source` is -1 and `line` 0 where the driver names no place.
 struct DriverMessage {

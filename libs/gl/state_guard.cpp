@@ -60,13 +60,12 @@ StateGuard::~StateGuard()
 
 void StateGuard::saveSwitches()
 {
-    std::vector<GLenum> names{GL_DEPTH_TEST,    GL_STENCIL_TEST,          GL_CULL_FACE,
-                              GL_DITHER,        GL_SAMPLE_ALPHA_TO_COVERAGE, GL_SAMPLE_COVERAGE,
-                              GL_POLYGON_OFFSET_FILL, GL_RASTERIZER_DISCARD};
+    std::vector<GLenum> names{GL_DEPTH_TEST,      GL_STENCIL_TEST,        GL_CULL_FACE,         GL_DITHER, GL_SAMPLE_ALPHA_TO_COVERAGE,
+                              GL_SAMPLE_COVERAGE, GL_POLYGON_OFFSET_FILL, GL_RASTERIZER_DISCARD};
     const bool desktop = !api_.isEs();
     if (desktop) {
-        names.insert(names.end(), {GL_COLOR_LOGIC_OP, GL_FRAMEBUFFER_SRGB, GL_DEPTH_CLAMP, GL_SAMPLE_MASK,
-                                   GL_PRIMITIVE_RESTART, GL_POLYGON_SMOOTH});
+        names.insert(names.end(),
+                     {GL_COLOR_LOGIC_OP, GL_FRAMEBUFFER_SRGB, GL_DEPTH_CLAMP, GL_SAMPLE_MASK, GL_PRIMITIVE_RESTART, GL_POLYGON_SMOOTH});
         for (GLenum i = 0; i < 8; ++i)
             names.push_back(GL_CLIP_DISTANCE0 + i);
     }
@@ -111,8 +110,7 @@ void StateGuard::saveFixedFunction()
             api_->GetFloatv(GL_VIEWPORT, saved.box.data());
             api_->GetIntegerv(GL_SCISSOR_BOX, saved.scissorBox.data());
         }
-        saved.scissor =
-            (indexedViewports_ ? api_->IsEnabledi(GL_SCISSOR_TEST, index) : api_->IsEnabled(GL_SCISSOR_TEST)) == GL_TRUE;
+        saved.scissor = (indexedViewports_ ? api_->IsEnabledi(GL_SCISSOR_TEST, index) : api_->IsEnabled(GL_SCISSOR_TEST)) == GL_TRUE;
         viewports_.push_back(saved);
     }
     api_->Disable(GL_SCISSOR_TEST);
@@ -157,8 +155,8 @@ void StateGuard::restoreFixedFunction() const
         const ViewportState& saved = viewports_[i];
         const std::array<GLint, 4>& box = saved.scissorBox;
         if (!indexedViewports_) {
-            api_->Viewport(static_cast<GLint>(saved.box[0]), static_cast<GLint>(saved.box[1]),
-                           static_cast<GLsizei>(saved.box[2]), static_cast<GLsizei>(saved.box[3]));
+            api_->Viewport(static_cast<GLint>(saved.box[0]), static_cast<GLint>(saved.box[1]), static_cast<GLsizei>(saved.box[2]),
+                           static_cast<GLsizei>(saved.box[3]));
             api_->Scissor(box[0], box[1], box[2], box[3]);
             setSwitch(api_, GL_SCISSOR_TEST, saved.scissor);
             continue;
@@ -196,8 +194,8 @@ void StateGuard::restoreBuffers(GLenum target, GLint generic, const std::vector<
     for (std::size_t i = 0; i < indexed.size(); ++i) {
         const IndexedBuffer& saved = indexed[i];
         if (saved.buffer != 0 && saved.size != 0)
-            api_->BindBufferRange(target, static_cast<GLuint>(i), unsignedName(saved.buffer),
-                                  static_cast<GLintptr>(saved.start), static_cast<GLsizeiptr>(saved.size));
+            api_->BindBufferRange(target, static_cast<GLuint>(i), unsignedName(saved.buffer), static_cast<GLintptr>(saved.start),
+                                  static_cast<GLsizeiptr>(saved.size));
         else
             api_->BindBufferBase(target, static_cast<GLuint>(i), unsignedName(saved.buffer));
     }
@@ -233,12 +231,12 @@ void StateGuard::saveBindings(const GuardedBindings& wanted)
         plainBuffers_[i] = integer(api_, plainBufferTargets[i][1]);
         api_->BindBuffer(plainBufferTargets[i][0], 0);
     }
-    saveBuffers(GL_UNIFORM_BUFFER, GL_UNIFORM_BUFFER_BINDING, GL_UNIFORM_BUFFER_START, GL_UNIFORM_BUFFER_SIZE,
-                wanted.uniformBuffers, uniformBuffer_, uniformBuffers_);
+    saveBuffers(GL_UNIFORM_BUFFER, GL_UNIFORM_BUFFER_BINDING, GL_UNIFORM_BUFFER_START, GL_UNIFORM_BUFFER_SIZE, wanted.uniformBuffers,
+                uniformBuffer_, uniformBuffers_);
     if (!api_.hasCompute())
         return;
-    saveBuffers(GL_SHADER_STORAGE_BUFFER, GL_SHADER_STORAGE_BUFFER_BINDING, GL_SHADER_STORAGE_BUFFER_START,
-                GL_SHADER_STORAGE_BUFFER_SIZE, wanted.storageBuffers, storageBuffer_, storageBuffers_);
+    saveBuffers(GL_SHADER_STORAGE_BUFFER, GL_SHADER_STORAGE_BUFFER_BINDING, GL_SHADER_STORAGE_BUFFER_START, GL_SHADER_STORAGE_BUFFER_SIZE,
+                wanted.storageBuffers, storageBuffer_, storageBuffers_);
     imageUnits_.resize(static_cast<std::size_t>(std::clamp(wanted.imageUnits, 0, integer(api_, GL_MAX_IMAGE_UNITS))));
     for (std::size_t i = 0; i < imageUnits_.size(); ++i) {
         ImageUnit& unit = imageUnits_[i];
@@ -256,9 +254,8 @@ void StateGuard::restoreBindings() const
 {
     for (std::size_t i = 0; i < imageUnits_.size(); ++i) {
         const ImageUnit& unit = imageUnits_[i];
-        api_->BindImageTexture(static_cast<GLuint>(i), unsignedName(unit.texture), unit.level,
-                               unit.layered ? GL_TRUE : GL_FALSE, unit.layer, unsignedName(unit.access),
-                               unsignedName(unit.format));
+        api_->BindImageTexture(static_cast<GLuint>(i), unsignedName(unit.texture), unit.level, unit.layered ? GL_TRUE : GL_FALSE,
+                               unit.layer, unsignedName(unit.access), unsignedName(unit.format));
     }
     if (api_.hasCompute())
         restoreBuffers(GL_SHADER_STORAGE_BUFFER, storageBuffer_, storageBuffers_);

@@ -20,7 +20,7 @@ struct FormatTraits {
 const FormatTraits& traits(TextureFormat format)
 {
     static constexpr FormatTraits table[] = {
-        {GL_R16F, GL_RED, 1}, {GL_RG16F, GL_RG, 2}, {GL_RGBA16F, GL_RGBA, 4}, {GL_R32F, GL_RED, 1},
+        {GL_R16F, GL_RED, 1}, {GL_RG16F, GL_RG, 2},     {GL_RGBA16F, GL_RGBA, 4}, {GL_R32F, GL_RED, 1},
         {GL_RG32F, GL_RG, 2}, {GL_RGBA32F, GL_RGBA, 4}, {GL_RGBA8, GL_RGBA, 4},
     };
     return table[static_cast<int>(format)];
@@ -36,9 +36,8 @@ bool is32Bit(TextureFormat format)
 std::vector<std::uint8_t> toBytes(const float* values, std::size_t count)
 {
     std::vector<std::uint8_t> bytes(count);
-    std::transform(values, values + count, bytes.begin(), [](float v) {
-        return static_cast<std::uint8_t>(std::lround(std::clamp(v, 0.0f, 1.0f) * 255.0f));
-    });
+    std::transform(values, values + count, bytes.begin(),
+                   [](float v) { return static_cast<std::uint8_t>(std::lround(std::clamp(v, 0.0f, 1.0f) * 255.0f)); });
     return bytes;
 }
 
@@ -64,18 +63,17 @@ Texture::Texture(const Api& context, std::string labelText, GLenum target, Textu
     const int largest = target == GL_TEXTURE_3D ? gl.limits().texture3dSize : gl.limits().textureSize;
     for (const int side : {size.width, size.height, size.depth})
         if (side < 1 || side > largest)
-            throw RangeError("Texture \"" + label() + "\": a side of " + std::to_string(side) +
-                             " texels; this driver allows 1 to " + std::to_string(largest) + ".");
+            throw RangeError("Texture \"" + label() + "\": a side of " + std::to_string(side) + " texels; this driver allows 1 to " +
+                             std::to_string(largest) + ".");
     whileBound([&] {
         const FormatTraits& t = traits(format_);
         const GLenum type = format_ == TextureFormat::rgba8 ? GL_UNSIGNED_BYTE : GL_FLOAT;
         const PixelStoreScope pixelStore(gl, PixelTransfer::unpack); // with the host's buffer bound, null is an offset
         if (target_ == GL_TEXTURE_3D)
-            gl->TexImage3D(target_, 0, static_cast<GLint>(t.internal), size_.width, size_.height, size_.depth, 0, t.external,
-                           type, nullptr);
-        else
-            gl->TexImage2D(target_, 0, static_cast<GLint>(t.internal), size_.width, size_.height, 0, t.external, type,
+            gl->TexImage3D(target_, 0, static_cast<GLint>(t.internal), size_.width, size_.height, size_.depth, 0, t.external, type,
                            nullptr);
+        else
+            gl->TexImage2D(target_, 0, static_cast<GLint>(t.internal), size_.width, size_.height, 0, t.external, type, nullptr);
         gl->TexParameteri(target_, GL_TEXTURE_BASE_LEVEL, 0);
         gl->TexParameteri(target_, GL_TEXTURE_MAX_LEVEL, 0);
         applyLabel();
@@ -98,8 +96,8 @@ void Texture::upload(const std::vector<float>& values)
 void Texture::uploadSlices(int first, int count, const float* values)
 {
     if (first < 0 || count < 0 || first > size_.depth - count)
-        throw RangeError("Texture \"" + label() + "\": slices " + std::to_string(first) + " to " +
-                         std::to_string(first + count - 1) + " are outside 0 to " + std::to_string(size_.depth - 1) + ".");
+        throw RangeError("Texture \"" + label() + "\": slices " + std::to_string(first) + " to " + std::to_string(first + count - 1) +
+                         " are outside 0 to " + std::to_string(size_.depth - 1) + ".");
     const Api& gl = api();
     const FormatTraits& t = traits(format_);
     const void* data = values;

@@ -117,13 +117,13 @@ void checkExrHeader(std::istream& stream, std::uint64_t fileBytes, const Table& 
                                                         static_cast<std::uint32_t>(table.rows()) - 1};
             for (std::size_t i = 0; i < 4; ++i)
                 if (HeaderReader::decode(value, 4 * i) != expected[i])
-                    in.fail("the image does not have " + std::to_string(table.columns()) + " x " +
-                            std::to_string(table.rows()) + " texels as the manifest says");
+                    in.fail("the image does not have " + std::to_string(table.columns()) + " x " + std::to_string(table.rows()) +
+                            " texels as the manifest says");
         } else if (name == "compression" && type == "compression" && value.size() == 1) {
             if (value[0] != none && value[0] != zips && value[0] != zip && value[0] != piz)
                 in.fail("the image is compressed by a method that this format does not use (none, ZIPS, ZIP or PIZ)");
-        } else if (name == "channels" || name == "dataWindow" || name == "displayWindow" || name == "compression" ||
-                   name == "type" || name == "tiles")
+        } else if (name == "channels" || name == "dataWindow" || name == "displayWindow" || name == "compression" || name == "type" ||
+                   name == "tiles")
             in.fail("the EXR header has a malformed or unexpected '" + name + "'");
     }
     for (const char* needed : {"channels", "dataWindow", "displayWindow", "compression"})

@@ -8,7 +8,6 @@ namespace sky::model {
 
 namespace {
 
-
 const std::string irradianceTable = std::string(lightPollutionMoments) + "-ground-irradiance";
 
 ModelError bad(const Model& model, const std::string& table, const std::string& what)
@@ -87,7 +86,8 @@ GlowTable::GlowTable(const Model& model) : planet_{model.manifest().planetRadius
 
 std::vector<double> GlowTable::slice(const double altitude) const
 {
-    const double share = std::min(1., physics::horizonDistance(planet_, altitude) / physics::horizonDistance(planet_, planet_.topOfAtmosphere));
+    const double share =
+        std::min(1., physics::horizonDistance(planet_, altitude) / physics::horizonDistance(planet_, planet_.topOfAtmosphere));
     const auto a = physics::uniformStencil(share * (layers_ - 1), layers_);
     const std::size_t columns = std::size_t(views_) * channels_;
     std::vector<double> result(columns);

@@ -15,9 +15,9 @@ constexpr int formatVersion = 1;
 struct SpeciesInfo {
     std::string name;
     bool scatters = false;
-    std::string phaseFunctionType = "none";      ///< "general", "achromatic", "smooth"; "none" if it never scatters
-    std::vector<double> singleScatteringAlbedo;  ///< [wavelengths], 0..1
-    std::vector<double> extinctionCrossSection;  ///< [wavelengths], m^2
+    std::string phaseFunctionType = "none";     ///< "general", "achromatic", "smooth"; "none" if it never scatters
+    std::vector<double> singleScatteringAlbedo; ///< [wavelengths], 0..1
+    std::vector<double> extinctionCrossSection; ///< [wavelengths], m^2
     bool operator==(const SpeciesInfo&) const = default;
 };
 
@@ -36,28 +36,28 @@ struct FileInfo {
 };
 
 struct Manifest {
-    std::string generator;              ///< program and version
-    std::string name;                   ///< of the model, for people; may be empty
-    double planetRadius = 0;            ///< m
-    double topOfAtmosphere = 0;         ///< m, altitude
-    double sunAngularRadius = 0;        ///< rad
-    double sunDistance = 0;             ///< m
-    double moonDistance = 0;            ///< m, from the planet's centre
-    double moonRadius = 0;              ///< m
-    std::vector<double> wavelengthsNm;  ///< [wavelengths], at least one, strictly increasing
-    std::vector<double> solarIrradiance;         ///< [wavelengths], W m^-2 nm^-1
-    std::vector<double> groundAlbedo;            ///< [wavelengths], 0..1
-    std::vector<double> lightPollutionRadiance;  ///< [wavelengths], W m^-2 sr^-1 nm^-1 per cd m^-2, or empty
+    std::string generator;                      ///< program and version
+    std::string name;                           ///< of the model, for people; may be empty
+    double planetRadius = 0;                    ///< m
+    double topOfAtmosphere = 0;                 ///< m, altitude
+    double sunAngularRadius = 0;                ///< rad
+    double sunDistance = 0;                     ///< m
+    double moonDistance = 0;                    ///< m, from the planet's centre
+    double moonRadius = 0;                      ///< m
+    std::vector<double> wavelengthsNm;          ///< [wavelengths], at least one, strictly increasing
+    std::vector<double> solarIrradiance;        ///< [wavelengths], W m^-2 nm^-1
+    std::vector<double> groundAlbedo;           ///< [wavelengths], 0..1
+    std::vector<double> lightPollutionRadiance; ///< [wavelengths], W m^-2 sr^-1 nm^-1 per cd m^-2, or empty
     std::vector<SpeciesInfo> species;
-    int scatteringOrders = 0;           ///< orders that the tables hold
-    bool allScatteringOrders = false;   ///< a closed series: what is beyond scatteringOrders is added as an estimate
+    int scatteringOrders = 0;         ///< orders that the tables hold
+    bool allScatteringOrders = false; ///< a closed series: what is beyond scatteringOrders is added as an estimate
     std::vector<Skipped> skipped;
     std::vector<std::string> warnings;
     std::map<std::string, double> estimatedError; ///< relative, by table or regime
     std::map<std::string, std::string> settings;  ///< options that shaped the model
 
-    std::vector<Table> tables;              ///< filled by the writer
-    std::map<std::string, FileInfo> files;  ///< filled by the writer: every file but manifest.json
+    std::vector<Table> tables;             ///< filled by the writer
+    std::map<std::string, FileInfo> files; ///< filled by the writer: every file but manifest.json
 
     int wavelengthCount() const { return static_cast<int>(wavelengthsNm.size()); }
 };

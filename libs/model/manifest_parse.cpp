@@ -19,20 +19,14 @@ constexpr std::size_t maxItems = 1 << 20;
 class Entry
 {
 public:
-    Entry(const Json& value, std::string place, std::string path)
-        : value_(value), place_(std::move(place)), path_(std::move(path))
-    {
-    }
+    Entry(const Json& value, std::string place, std::string path) : value_(value), place_(std::move(place)), path_(std::move(path)) {}
 
     [[noreturn]] void fail(const std::string& what) const
     {
         throw ModelError(place_ + ": " + (path_.empty() ? "" : path_ + ": ") + what + ".");
     }
 
-    [[noreturn]] void wrongType(const char* expected) const
-    {
-        fail(std::string("expected ") + expected + ", found " + value_.type_name());
-    }
+    [[noreturn]] void wrongType(const char* expected) const { fail(std::string("expected ") + expected + ", found " + value_.type_name()); }
 
     Entry operator[](const std::string& key) const
     {
@@ -194,8 +188,7 @@ Table parseTable(const Entry& entry)
         entry["storage"].fail("is '" + storage + "'; half or float is expected");
     table.half = storage == "half";
     if (table.half) {
-        entry["rowExponents"].forEach(
-            [&](const Entry& e) { table.rowExponents.push_back(static_cast<int>(e.integer(-300, 300))); });
+        entry["rowExponents"].forEach([&](const Entry& e) { table.rowExponents.push_back(static_cast<int>(e.integer(-300, 300))); });
         if (table.rowExponents.size() != static_cast<std::size_t>(table.rows()))
             entry["rowExponents"].fail("has " + std::to_string(table.rowExponents.size()) + " values; one for each of the " +
                                        std::to_string(table.rows()) + " rows is expected");
@@ -221,8 +214,7 @@ SpeciesInfo parseSpecies(const Entry& entry, std::size_t wavelengths)
     species.phaseFunctionType = entry["phaseFunctionType"].text();
     static const std::set<std::string> known{"general", "achromatic", "smooth", "none"};
     if (!known.contains(species.phaseFunctionType))
-        entry["phaseFunctionType"].fail("is '" + species.phaseFunctionType +
-                                        "'; general, achromatic, smooth or none is expected");
+        entry["phaseFunctionType"].fail("is '" + species.phaseFunctionType + "'; general, achromatic, smooth or none is expected");
     species.singleScatteringAlbedo = spectrum(entry["singleScatteringAlbedo"], wavelengths, 1);
     species.extinctionCrossSection = spectrum(entry["extinctionCrossSection"], wavelengths, 1e300);
     return species;
@@ -285,16 +277,12 @@ Manifest parseManifest(const std::string& text, const std::string& place)
     m.scatteringOrders = static_cast<int>(root["scatteringOrders"].integer(0, 1000000));
     m.allScatteringOrders = root["allScatteringOrders"].boolean();
     root["species"].forEach([&](const Entry& s) { m.species.push_back(parseSpecies(s, count)); });
-    root["skipped"].forEach(
-        [&](const Entry& s) { m.skipped.push_back({s["what"].text(), s["why"].text()}); });
+    root["skipped"].forEach([&](const Entry& s) { m.skipped.push_back({s["what"].text(), s["why"].text()}); });
     m.warnings = root["warnings"].texts();
-    root["estimatedError"].forEachMember(
-        [&](const std::string& key, const Entry& value) { m.estimatedError[key] = value.number(); });
-    root["settings"].forEachMember(
-        [&](const std::string& key, const Entry& value) { m.settings[key] = value.text(); });
+    root["estimatedError"].forEachMember([&](const std::string& key, const Entry& value) { m.estimatedError[key] = value.number(); });
+    root["settings"].forEachMember([&](const std::string& key, const Entry& value) { m.settings[key] = value.text(); });
 
-    root["files"].forEachMember(
-        [&](const std::string& key, const Entry& value) { m.files[key] = parseFile(key, value); });
+    root["files"].forEachMember([&](const std::string& key, const Entry& value) { m.files[key] = parseFile(key, value); });
     std::set<std::string> names;
     root["tables"].forEach([&](const Entry& entry) {
         m.tables.push_back(parseTable(entry));

@@ -60,10 +60,12 @@ void describeMedium(Manifest& manifest, const Medium& medium)
     manifest.groundAlbedo = medium.groundAlbedo;
     manifest.species.clear();
     for (const Species& s : medium.species)
-        manifest.species.push_back(
-            {s.name, s.scatters(),
-             !s.scatters() ? "none" : s.achromatic ? "achromatic" : s.smooth ? "smooth" : "general",
-             s.singleScatteringAlbedo, s.extinctionCrossSection});
+        manifest.species.push_back({s.name, s.scatters(),
+                                    !s.scatters()  ? "none"
+                                    : s.achromatic ? "achromatic"
+                                    : s.smooth     ? "smooth"
+                                                   : "general",
+                                    s.singleScatteringAlbedo, s.extinctionCrossSection});
 }
 
 void writeMedium(ModelWriter& writer, const Medium& medium)

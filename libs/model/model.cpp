@@ -24,10 +24,7 @@ constexpr std::uint64_t maxManifestBytes = 64 << 20, maxTextBytes = 64 << 20;
 class Stream : public Imf::IStream
 {
 public:
-    Stream(const fs::path& path, std::uint64_t bytes)
-        : Imf::IStream(path.string().c_str()), file_(path, std::ios::binary), bytes_(bytes)
-    {
-    }
+    Stream(const fs::path& path, std::uint64_t bytes) : Imf::IStream(path.string().c_str()), file_(path, std::ios::binary), bytes_(bytes) {}
     std::ifstream& file() { return file_; }
     bool read(char buffer[], int count) override
     {
@@ -82,8 +79,8 @@ Model Model::open(const fs::path& directory)
         if (fs::canonical(full, code) != inside / file)
             throw ModelError("'" + full.string() + "' is a link; a file inside the model is expected.");
         if (const auto bytes = fs::file_size(full, code); code || bytes != info.bytes)
-            throw ModelError("'" + full.string() + "' has " + std::to_string(code ? 0 : bytes) +
-                             " bytes, the manifest says " + std::to_string(info.bytes) + ".");
+            throw ModelError("'" + full.string() + "' has " + std::to_string(code ? 0 : bytes) + " bytes, the manifest says " +
+                             std::to_string(info.bytes) + ".");
     }
     return model;
 }
@@ -101,8 +98,8 @@ const Table& Model::table(const std::string& name) const
             return table;
         known += (known.empty() ? "" : ", ") + table.name;
     }
-    throw ModelError("The model '" + directory_.string() + "' has no table '" + name + "'. It has: " +
-                     (known.empty() ? "none" : known) + ".");
+    throw ModelError("The model '" + directory_.string() + "' has no table '" + name + "'. It has: " + (known.empty() ? "none" : known) +
+                     ".");
 }
 
 std::vector<float> Model::readAll(const std::string& name) const { return readRows(name, 0, table(name).rows()); }
@@ -111,8 +108,8 @@ std::vector<float> Model::readRows(const std::string& name, int firstRow, int ro
 {
     const Table& table = this->table(name);
     if (firstRow < 0 || rowCount < 0 || firstRow > table.rows() || rowCount > table.rows() - firstRow)
-        throw RangeError("Table '" + name + "' has rows 0 to " + std::to_string(table.rows() - 1) + "; " +
-                         std::to_string(rowCount) + " rows from " + std::to_string(firstRow) + " were asked for.");
+        throw RangeError("Table '" + name + "' has rows 0 to " + std::to_string(table.rows() - 1) + "; " + std::to_string(rowCount) +
+                         " rows from " + std::to_string(firstRow) + " were asked for.");
     if (rowCount == 0)
         return {};
     const std::string place = "'" + (directory_ / table.file).string() + "' (table '" + name + "')";
@@ -124,8 +121,8 @@ std::vector<float> Model::readRows(const std::string& name, int firstRow, int ro
     // No compressor of this format does better than 1 : 1032 (deflate); more means that the header lies.
     const std::uint64_t raw = table.valueCount(table.rows()) * (table.half ? 2u : 4u);
     if (raw / 1100 > bytes)
-        throw ModelError(place + ": the file is too short for " + std::to_string(table.rows()) + " x " +
-                         std::to_string(table.columns()) + " texels.");
+        throw ModelError(place + ": the file is too short for " + std::to_string(table.rows()) + " x " + std::to_string(table.columns()) +
+                         " texels.");
     stream.file().clear();
     stream.file().seekg(0);
 
@@ -172,8 +169,7 @@ void Model::verifyChecksums() const
             throw ModelError(error.what());
         }
         if (found != info)
-            throw ModelError("'" + (directory_ / file).string() +
-                             "' is damaged: its checksum is not the one in the manifest.");
+            throw ModelError("'" + (directory_ / file).string() + "' is damaged: its checksum is not the one in the manifest.");
     }
 }
 

@@ -88,8 +88,8 @@ physics::Moments readMoments(const Model& model, const std::string& name)
     if (mapping.id != "sinh" || scale == mapping.parameters.end() || !(scale->second > 0 && scale->second <= 40))
         throw bad("its Suns must follow the mapping \"sinh\" with a scale above 0, at most 40.");
     physics::Moments m;
-    m.grid = physics::MomentGrid({manifest.planetRadius, manifest.topOfAtmosphere}, altitudes, suns.front(),
-                                 static_cast<int>(suns.size()), scale->second);
+    m.grid = physics::MomentGrid({manifest.planetRadius, manifest.topOfAtmosphere}, altitudes, suns.front(), static_cast<int>(suns.size()),
+                                 scale->second);
     m.degree = degree;
     m.wavelengths = manifest.wavelengthCount();
     for (std::size_t j = 0; j < suns.size(); ++j)

@@ -13,7 +13,7 @@ float roundedToBits(float value, int bits);
 enum class Flaw { None, NotANumber, Infinite, Negative };
 
 struct RowScan {
-    float largest = 0;        ///< largest magnitude, if flawless
+    float largest = 0; ///< largest magnitude, if flawless
     Flaw flaw = Flaw::None;
     std::size_t position = 0; ///< of the first flaw
 };

@@ -44,9 +44,8 @@ ScatteringTable::ScatteringTable(const Model& model, const std::string& name) : 
     const auto vDark = mapping.parameters.find("vDark"), scale = mapping.parameters.find("scale");
     if (mapping.id != "sun-from-horizon" || vDark == mapping.parameters.end() || scale == mapping.parameters.end() ||
         scale->second != physics::sunTableScale || !(vDark->second < 1))
-        throw ModelError(model.directory().string() + ", table \"" + name +
-                         "\": expected the mapping \"sun-from-horizon\" with scale " + std::to_string(physics::sunTableScale) +
-                         " on the axis of the Sun.");
+        throw ModelError(model.directory().string() + ", table \"" + name + "\": expected the mapping \"sun-from-horizon\" with scale " +
+                         std::to_string(physics::sunTableScale) + " on the axis of the Sun.");
     vDark_ = vDark->second;
     channels_ = table_.channelCount();
     layers_ = static_cast<int>(table_.axes[0].nodes.size());
@@ -62,7 +61,7 @@ const std::vector<float>& ScatteringTable::layer(const int index) const
         return found->second;
     while (read_.size() >= layersKept) // the farthest from where we are
         read_.erase(std::abs(read_.begin()->first - index) > std::abs(read_.rbegin()->first - index) ? read_.begin()
-                                                                                                    : std::prev(read_.end()));
+                                                                                                     : std::prev(read_.end()));
     return read_[index] = model_.readRows(table_.name, index * suns_, suns_);
 }
 

@@ -20,7 +20,7 @@ public:
     ScatteringTable(const Model& model, const std::string& name);
 
     int channels() const { return channels_; }
-    int views() const { return views_; }       ///< even: half below the horizon, half above
+    int views() const { return views_; } ///< even: half below the horizon, half above
     int azimuths() const { return azimuths_; }
     const Table& table() const { return table_; }
 
@@ -33,8 +33,7 @@ public:
     ///   viewElevation   rad; what lies below the geometric horizon of the altitude looks at the ground
     ///   relativeAzimuth rad, any
     ///   result          [channel]
-    void sample(const std::vector<float>& slice, double altitude, double viewElevation, double relativeAzimuth,
-                double* result) const;
+    void sample(const std::vector<float>& slice, double altitude, double viewElevation, double relativeAzimuth, double* result) const;
 
 private:
     const std::vector<float>& layer(int index) const;

@@ -75,8 +75,7 @@ int TableSpec::channelCount() const
 
 std::size_t Table::valueCount(int rowCount) const
 {
-    return static_cast<std::size_t>(rowCount) * static_cast<std::size_t>(columns()) *
-           static_cast<std::size_t>(channelCount());
+    return static_cast<std::size_t>(rowCount) * static_cast<std::size_t>(columns()) * static_cast<std::size_t>(channelCount());
 }
 
 std::string Table::describeTexel(int row, int column) const
@@ -85,11 +84,9 @@ std::string Table::describeTexel(int row, int column) const
     for (std::size_t i = 0; i < axes.size(); ++i) {
         const bool isRow = i < static_cast<std::size_t>(rowAxes);
         const std::size_t end = isRow ? static_cast<std::size_t>(rowAxes) : axes.size();
-        const std::int64_t index = (isRow ? row : column) / product(axes, i + 1, end) %
-                                   static_cast<std::int64_t>(axes[i].nodes.size());
+        const std::int64_t index = (isRow ? row : column) / product(axes, i + 1, end) % static_cast<std::int64_t>(axes[i].nodes.size());
         text += (i ? ", " : "") + axes[i].name + "[" + std::to_string(index) +
-                "] = " + number(axes[i].nodes[static_cast<std::size_t>(index)]) +
-                (axes[i].unit == "1" ? "" : " " + axes[i].unit);
+                "] = " + number(axes[i].nodes[static_cast<std::size_t>(index)]) + (axes[i].unit == "1" ? "" : " " + axes[i].unit);
     }
     return text;
 }
@@ -130,8 +127,7 @@ bool isPlainRelativePath(const std::string& path)
         return false;
     bool atStart = true;
     for (const char c : path) {
-        const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
-                            c == '_';
+        const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
         if (atStart ? !letter : !letter && c != '.' && c != '/')
             return false;
         atStart = c == '/';
@@ -162,8 +158,7 @@ void validate(const TableSpec& spec)
     require(spec.rows() <= maxSide && spec.columns() <= maxSide, "more than 2^24 rows or columns");
     require(spec.significandBits >= 1 && spec.significandBits <= 24,
             "significandBits is " + std::to_string(spec.significandBits) + ", expected 1 to 24");
-    const bool spectral =
-        spec.channels == Channels::SpectralRadiance || spec.channels == Channels::SpectralDimensionless;
+    const bool spectral = spec.channels == Channels::SpectralRadiance || spec.channels == Channels::SpectralDimensionless;
     for (const double nm : spec.wavelengthsNm)
         require(std::isfinite(nm) && nm > 0 && nm < 1e9, "a wavelength of " + number(nm) + " nm; 0 to 1e9 is expected");
     require(spectral || spec.wavelengthsNm.empty(), "only spectral tables have wavelengths");
@@ -172,8 +167,7 @@ void validate(const TableSpec& spec)
     const auto names = channelNamesOf(spec);
     require(std::set<std::string>(names.begin(), names.end()).size() == names.size(), "two channels have the same name");
     for (const std::string& name : names)
-        require(!name.empty() && name.size() <= 255 && name.find('\0') == std::string::npos,
-                "a channel name must have 1 to 255 bytes");
+        require(!name.empty() && name.size() <= 255 && name.find('\0') == std::string::npos, "a channel name must have 1 to 255 bytes");
     require(std::int64_t(spec.rows()) * spec.columns() * spec.channelCount() <= maxValues, "more than 2^36 values");
 }
 

@@ -34,20 +34,20 @@ enum class Channels {
 /// A table to be written: the first `rowAxes` axes index scanlines, the others columns, the last of each running
 /// fastest. With [altitude][sun zenith][view zenith][azimuth] and rowAxes = 2 an altitude is one run of scanlines.
 struct TableSpec {
-    std::string name;          ///< unique in the model, for instance "single-scattering/molecules"
-    std::string file = {};     ///< relative to the model; empty: safeFileName(name)
-    std::string quantity;      ///< for instance "radiance"
-    std::string unit;          ///< for instance "W m^-2 sr^-1 nm^-1"
+    std::string name;      ///< unique in the model, for instance "single-scattering/molecules"
+    std::string file = {}; ///< relative to the model; empty: safeFileName(name)
+    std::string quantity;  ///< for instance "radiance"
+    std::string unit;      ///< for instance "W m^-2 sr^-1 nm^-1"
     std::vector<Axis> axes;
-    int rowAxes = 1;           ///< 1 .. axes.size()
+    int rowAxes = 1; ///< 1 .. axes.size()
     Channels channels = Channels::Named;
-    std::vector<double> wavelengthsNm = {};    ///< spectral tables: one channel each
+    std::vector<double> wavelengthsNm = {};     ///< spectral tables: one channel each
     std::vector<std::string> channelNames = {}; ///< Channels::Named only
-    int significandBits = 24;  ///< 1..24; values are rounded to that many, 24 keeps a float as it is
-    bool isSigned = false;     ///< negative values are legal
+    int significandBits = 24;                   ///< 1..24; values are rounded to that many, 24 keeps a float as it is
+    bool isSigned = false;                      ///< negative values are legal
 
-    int rows() const;          ///< product of the first rowAxes axes
-    int columns() const;       ///< product of the others; 1 if there are none
+    int rows() const;    ///< product of the first rowAxes axes
+    int columns() const; ///< product of the others; 1 if there are none
     int channelCount() const;
 };
 

@@ -131,9 +131,9 @@ struct WriterTable {
 void WriterTable::write(int firstRow, int rowCount, const float* values)
 {
     if (firstRow != rowsWritten || rowCount < 0 || rowCount > table.rows() - rowsWritten)
-        throw RangeError("Table '" + table.name + "': rows " + std::to_string(firstRow) + " to " +
-                         std::to_string(firstRow + rowCount) + " were given, rows from " + std::to_string(rowsWritten) +
-                         " to at most " + std::to_string(table.rows()) + " are expected.");
+        throw RangeError("Table '" + table.name + "': rows " + std::to_string(firstRow) + " to " + std::to_string(firstRow + rowCount) +
+                         " were given, rows from " + std::to_string(rowsWritten) + " to at most " + std::to_string(table.rows()) +
+                         " are expected.");
     if (rowCount == 0)
         return;
     const std::size_t rowSize = table.valueCount(1), channels = table.channelNames.size();
@@ -146,11 +146,9 @@ void WriterTable::write(int firstRow, int rowCount, const float* values)
         const RowScan scan = scanRow(values + start, rowSize, table.isSigned);
         if (scan.flaw != Flaw::None) {
             const int column = static_cast<int>(scan.position / channels);
-            throw NumericsError("Table '" + table.name + "': the value at row " + std::to_string(firstRow + row) +
-                                ", column " + std::to_string(column) + " (" +
-                                table.describeTexel(firstRow + row, column) + "), channel " +
-                                table.channelNames[scan.position % channels] + " is " + words(scan.flaw) +
-                                ". No model was written.");
+            throw NumericsError("Table '" + table.name + "': the value at row " + std::to_string(firstRow + row) + ", column " +
+                                std::to_string(column) + " (" + table.describeTexel(firstRow + row, column) + "), channel " +
+                                table.channelNames[scan.position % channels] + " is " + words(scan.flaw) + ". No model was written.");
         }
         if (table.half) {
             const int exponent = rowExponent(scan.largest, table.rowExponents.empty() ? 0 : table.rowExponents.back());
@@ -169,8 +167,7 @@ void WriterTable::write(int firstRow, int rowCount, const float* values)
     Imf::FrameBuffer buffer;
     for (std::size_t c = 0; c < channels; ++c)
         buffer.insert(table.channelNames[c],
-                      Imf::Slice::Make(table.half ? Imf::HALF : Imf::FLOAT, base + c * size, window, channels * size,
-                                       rowSize * size));
+                      Imf::Slice::Make(table.half ? Imf::HALF : Imf::FLOAT, base + c * size, window, channels * size, rowSize * size));
     try {
         file->setFrameBuffer(buffer);
         file->writePixels(rowCount);
@@ -193,10 +190,7 @@ void WriterTable::close()
     syncFile(path);
 }
 
-void TableWriter::writeRows(int firstRow, int rowCount, const float* values)
-{
-    table_->write(firstRow, rowCount, values);
-}
+void TableWriter::writeRows(int firstRow, int rowCount, const float* values) { table_->write(firstRow, rowCount, values); }
 
 const TableSpec& TableWriter::spec() const { return table_->table; }
 
@@ -262,15 +256,12 @@ void ModelWriter::table(const TableSpec& spec, const std::vector<float>& values)
     TableWriter writer = table(spec);
     const std::size_t expected = writer.table_->table.valueCount(spec.rows());
     if (values.size() != expected)
-        throw RangeError("Table '" + spec.name + "': " + std::to_string(values.size()) + " values were given, " +
-                         std::to_string(expected) + " are expected.");
+        throw RangeError("Table '" + spec.name + "': " + std::to_string(values.size()) + " values were given, " + std::to_string(expected) +
+                         " are expected.");
     writer.writeRows(0, spec.rows(), values.data());
 }
 
-void ModelWriter::text(const std::string& file, const std::string& content)
-{
-    writeTextFile(state_->claim(file), content);
-}
+void ModelWriter::text(const std::string& file, const std::string& content) { writeTextFile(state_->claim(file), content); }
 
 void ModelWriter::commit(Manifest manifest, const std::function<void(double)>& breath)
 {

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace sky::montecarlo
-{
-namespace
-{
+namespace sky::montecarlo {
+namespace {
 
 constexpr int guideCosines = 1024;
 constexpr std::size_t altitudeBins = 4096;
@@ -47,8 +45,7 @@ Air::Air(const physics::Medium& medium, int wavelength)
         if (kind.scatters) {
             std::vector<double> values;
             for (std::size_t i = 0; i < medium.scatteringAngles.size(); ++i)
-                values.push_back(
-                    species.phaseFunction[i * medium.wavelengthsNm.size() + static_cast<std::size_t>(wavelength)]);
+                values.push_back(species.phaseFunction[i * medium.wavelengthsNm.size() + static_cast<std::size_t>(wavelength)]);
             phases_.emplace_back(medium.scatteringAngles, values);
         }
         kinds_.push_back(std::move(kind));

@@ -7,8 +7,7 @@
 
 #include <vector>
 
-namespace sky::montecarlo
-{
+namespace sky::montecarlo {
 
 /// Coefficients at one altitude.
 struct Local {

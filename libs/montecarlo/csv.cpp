@@ -5,8 +5,7 @@
 #include <numbers>
 #include <ostream>
 
-namespace sky::montecarlo
-{
+namespace sky::montecarlo {
 
 void writeCsv(std::ostream& out, const std::vector<Row>& rows, const std::vector<double>& wavelengthsNm)
 {
@@ -19,14 +18,13 @@ void writeCsv(std::ostream& out, const std::vector<Row>& rows, const std::vector
         const Result& r = row.result;
         out << row.atmosphere << ',' << (row.orders > 0 ? std::to_string(row.orders) : "all");
         char line[256];
-        std::snprintf(line, sizeof line, ",%.6g,%.6g,%.6g,%.6g,%.3f,%.8e,%.8e,%.3e,%.8e", q.altitude,
-                      degrees(q.sunZenithAngle), degrees(q.viewZenithAngle), degrees(q.relativeAzimuth),
-                      wavelengthsNm[static_cast<std::size_t>(q.wavelength)], r.single, r.multiple, r.multipleStderr,
-                      r.groundDirect);
+        std::snprintf(line, sizeof line, ",%.6g,%.6g,%.6g,%.6g,%.3f,%.8e,%.8e,%.3e,%.8e", q.altitude, degrees(q.sunZenithAngle),
+                      degrees(q.viewZenithAngle), degrees(q.relativeAzimuth), wavelengthsNm[static_cast<std::size_t>(q.wavelength)],
+                      r.single, r.multiple, r.multipleStderr, r.groundDirect);
         out << line;
         if (eclipse && q.moon) {
-            std::snprintf(line, sizeof line, ",%.9g,%.9g,%.10g", degrees(q.moon->zenithAngle),
-                          degrees(q.moon->relativeAzimuth), q.moon->distance);
+            std::snprintf(line, sizeof line, ",%.9g,%.9g,%.10g", degrees(q.moon->zenithAngle), degrees(q.moon->relativeAzimuth),
+                          q.moon->distance);
             out << line;
         } else if (eclipse) {
             out << ",,,";

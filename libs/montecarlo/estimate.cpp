@@ -8,10 +8,8 @@
 #include <memory>
 #include <thread>
 
-namespace sky::montecarlo
-{
-namespace
-{
+namespace sky::montecarlo {
+namespace {
 
 constexpr int pathsPerBatch = 256;
 constexpr std::int64_t firstBatches = 64; // enough for the standard error to mean something: 9 % uncertain
@@ -29,8 +27,7 @@ std::uint64_t streamSeed(const Query& query, std::uint64_t seed)
 }
 
 /// Computes means[from ..] on several threads. Which thread takes which batch makes no difference.
-void runBatches(const std::function<BatchMean()>& make, std::uint64_t seed, int threads, std::vector<double>& means,
-                std::size_t from)
+void runBatches(const std::function<BatchMean()>& make, std::uint64_t seed, int threads, std::vector<double>& means, std::size_t from)
 {
     std::atomic<std::size_t> next{from};
     const auto work = [&] {
@@ -48,8 +45,7 @@ void runBatches(const std::function<BatchMean()>& make, std::uint64_t seed, int 
 
 } // namespace
 
-void addPaths(const Air& air, const Scene& scene, Orders orders, const Query& query, const Settings& settings,
-              Result& result)
+void addPaths(const Air& air, const Scene& scene, Orders orders, const Query& query, const Settings& settings, Result& result)
 {
     const auto make = [&]() -> BatchMean {
         return [tracer = std::make_shared<PathTracer>(air, scene, orders)](Random& random, int paths) {
@@ -71,11 +67,9 @@ void runPaths(const std::function<BatchMean()>& make, const Query& query, const 
     while (static_cast<std::int64_t>(means.size()) < wanted) {
         // Where time is limited, rounds stay short enough to look at the clock.
         const auto have = static_cast<std::int64_t>(means.size());
-        const std::int64_t round =
-            settings.maxSeconds > 0 ? std::min(wanted - have, std::max(firstBatches, have / 4)) : wanted - have;
+        const std::int64_t round = settings.maxSeconds > 0 ? std::min(wanted - have, std::max(firstBatches, have / 4)) : wanted - have;
         means.resize(static_cast<std::size_t>(have + round));
-        runBatches(make, streamSeed(query, settings.seed), threads, means,
-                   static_cast<std::size_t>(have));
+        runBatches(make, streamSeed(query, settings.seed), threads, means, static_cast<std::size_t>(have));
 
         const double count = static_cast<double>(means.size());
         double sum = 0, squares = 0;
@@ -87,15 +81,13 @@ void runPaths(const std::function<BatchMean()>& make, const Query& query, const 
         result.multipleStderr = std::sqrt(squares / (count * (count - 1)));
         result.paths = static_cast<std::int64_t>(means.size()) * pathsPerBatch;
 
-        if (settings.maxSeconds > 0 &&
-            std::chrono::duration<double>(Clock::now() - start).count() > settings.maxSeconds)
+        if (settings.maxSeconds > 0 && std::chrono::duration<double>(Clock::now() - start).count() > settings.maxSeconds)
             break;
         if (settings.relativeError <= 0)
             continue;
         // Aim a little beyond what is missing, but at most double the work on the word of an uncertain error.
         const double allowed = settings.relativeError * result.total();
-        if (result.multipleStderr <= allowed &&
-            (allowed > 0 || static_cast<std::int64_t>(means.size()) >= hopelessBatches))
+        if (result.multipleStderr <= allowed && (allowed > 0 || static_cast<std::int64_t>(means.size()) >= hopelessBatches))
             break;
         const double ratio = allowed > 0 ? result.multipleStderr / allowed : 2;
         wanted = std::min(limit, static_cast<std::int64_t>(std::ceil(count * std::min(2.0, 1.1 * ratio * ratio))));

@@ -7,8 +7,7 @@
 #include <functional>
 #include <optional>
 
-namespace sky::montecarlo
-{
+namespace sky::montecarlo {
 
 /// The scene seen from where the line of sight enters the atmosphere; nothing if it misses it.
 std::optional<Scene> sceneOf(const physics::Medium& medium, const Query& query);
@@ -21,7 +20,6 @@ void runPaths(const std::function<BatchMean()>& make, const Query& query, const 
 
 /// Fills multiple, multipleStderr and paths of `result`; result.single counts towards the radiance that the relative
 /// error refers to. Batches have random streams of their own and are summed in their order.
-void addPaths(const Air& air, const Scene& scene, Orders orders, const Query& query, const Settings& settings,
-              Result& result);
+void addPaths(const Air& air, const Scene& scene, Orders orders, const Query& query, const Settings& settings, Result& result);
 
 } // namespace sky::montecarlo

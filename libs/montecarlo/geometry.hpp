@@ -6,8 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace sky::montecarlo
-{
+namespace sky::montecarlo {
 
 struct Vec {
     double x = 0, y = 0, z = 0;
@@ -15,35 +14,17 @@ struct Vec {
     friend Vec operator-(Vec a, Vec b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
     friend Vec operator*(double k, Vec a) { return {k * a.x, k * a.y, k * a.z}; }
 };
-inline double dot(Vec a, Vec b)
-{
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-inline Vec cross(Vec a, Vec b)
-{
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-inline double length(Vec a)
-{
-    return std::sqrt(dot(a, a));
-}
-inline Vec normalized(Vec a)
-{
-    return (1 / length(a)) * a;
-}
+inline double dot(Vec a, Vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Vec cross(Vec a, Vec b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+inline double length(Vec a) { return std::sqrt(dot(a, a)); }
+inline Vec normalized(Vec a) { return (1 / length(a)) * a; }
 
 /// Angle between two unit vectors, rad. The half-angle form keeps full precision near 0 and pi, where acos loses half
 /// of the digits.
-inline double angleBetween(Vec a, Vec b)
-{
-    return 2 * std::atan2(length(a - b), length(a + b));
-}
+inline double angleBetween(Vec a, Vec b) { return 2 * std::atan2(length(a - b), length(a + b)); }
 
 /// A unit vector perpendicular to the unit vector `a`.
-inline Vec perpendicular(Vec a)
-{
-    return normalized(std::abs(a.x) < 0.5 ? cross(a, Vec{1, 0, 0}) : cross(a, Vec{0, 1, 0}));
-}
+inline Vec perpendicular(Vec a) { return normalized(std::abs(a.x) < 0.5 ? cross(a, Vec{1, 0, 0}) : cross(a, Vec{0, 1, 0})); }
 
 /// `axis` turned by the angle with this cosine and sine, in the azimuth `phi` around it.
 inline Vec turned(Vec axis, double cosine, double sine, double phi)
@@ -77,15 +58,9 @@ struct Ray {
     }
 };
 
-inline double radialSquare(double planetRadius, double altitude)
-{
-    return altitude * (altitude + 2 * planetRadius);
-}
+inline double radialSquare(double planetRadius, double altitude) { return altitude * (altitude + 2 * planetRadius); }
 /// Inverse of radialSquare, by the conjugate of sqrt(R^2 + X) - R.
-inline double altitudeOf(double planetRadius, double x)
-{
-    return x / (std::sqrt(planetRadius * planetRadius + x) + planetRadius);
-}
+inline double altitudeOf(double planetRadius, double x) { return x / (std::sqrt(planetRadius * planetRadius + x) + planetRadius); }
 
 inline Ray rayFrom(double planetRadius, const Place& place, Vec direction)
 {
@@ -95,8 +70,7 @@ inline Ray rayFrom(double planetRadius, const Place& place, Vec direction)
 /// The place at distance s along the ray.
 inline Place moved(double planetRadius, const Place& place, Vec direction, const Ray& ray, double s)
 {
-    return {altitudeOf(planetRadius, ray.at(s)),
-            normalized((planetRadius + place.altitude) * place.up + s * direction)};
+    return {altitudeOf(planetRadius, ray.at(s)), normalized((planetRadius + place.altitude) * place.up + s * direction)};
 }
 
 } // namespace sky::montecarlo

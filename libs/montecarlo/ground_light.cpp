@@ -8,10 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace sky::montecarlo
-{
-namespace
-{
+namespace sky::montecarlo {
+namespace {
 
 using base::pi;
 
@@ -50,10 +48,7 @@ double GroundLightTracer::batchMean(Random& random, int paths)
     return sum / paths;
 }
 
-bool GroundLightTracer::glows(Vec up) const
-{
-    return everywhere_ || length(up - centre_) <= 2 * halfChord_;
-}
+bool GroundLightTracer::glows(Vec up) const { return everywhere_ || length(up - centre_) <= 2 * halfChord_; }
 
 double GroundLightTracer::direct() const
 {
@@ -64,10 +59,7 @@ double GroundLightTracer::direct() const
 }
 
 /// Density in solid angle of directions towards uniform points of the disc; `cosine` is that of the ray's zenith angle there.
-double GroundLightTracer::discDensity(double distance, double cosine) const
-{
-    return distance * distance / (area_ * cosine);
-}
+double GroundLightTracer::discDensity(double distance, double cosine) const { return distance * distance / (area_ * cosine); }
 
 /// Light from a random point of the disc, scattered at `place` into the path. Both ways to meet the disc, this one and the path's own
 /// next leg, are weighted by the balance heuristic (Veach & Guibas 1995), so that neither small distances nor peaks make noise.
@@ -89,8 +81,7 @@ double GroundLightTracer::towardsDisc(const Place& place, Vec direction, const L
         return 0;
     air_.profile().trace(ray, discLeg_);
     const double scattered = air_.scatteredAt(local, angleBetween(towards, direction));
-    return std::exp(-discLeg_.opticalDepth) * scattered / local.extinction /
-           (discDensity(distance, cosine) + scattered / local.bright);
+    return std::exp(-discLeg_.opticalDepth) * scattered / local.extinction / (discDensity(distance, cosine) + scattered / local.bright);
 }
 
 double GroundLightTracer::path(Random& random)
@@ -162,8 +153,8 @@ GroundLight Reference::groundLight(const Query& query, const std::optional<Groun
     const auto tracer = [&] { return std::make_unique<GroundLightTracer>(medium, *scene, disc, settings.orders); };
     light.direct = tracer()->direct();
     Result result;
-    runPaths([&] { return [own = std::shared_ptr(tracer())](Random& random, int paths) { return own->batchMean(random, paths); }; },
-             query, settings, result);
+    runPaths([&] { return [own = std::shared_ptr(tracer())](Random& random, int paths) { return own->batchMean(random, paths); }; }, query,
+             settings, result);
     light.scattered = result.multiple;
     light.scatteredStderr = result.multipleStderr;
     light.paths = result.paths;

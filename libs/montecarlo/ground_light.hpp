@@ -6,8 +6,7 @@
 
 #include <optional>
 
-namespace sky::montecarlo
-{
+namespace sky::montecarlo {
 
 /// A glowing disc on the ground, seen from the point below the camera. Metres along the ground, radians.
 struct GroundDisc {

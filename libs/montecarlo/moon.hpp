@@ -46,8 +46,7 @@ public:
         const SunDisc disc = sunFrom(position);
         const Vec centre = disc.centre(), moon = normalized(moon_ - position);
         if (disc.isPoint())
-            return hides(position, centre) || dot(place.up, centre) < horizonCosine(planetRadius, place) ? 0.0
-                                                                                                         : f(centre);
+            return hides(position, centre) || dot(place.up, centre) < horizonCosine(planetRadius, place) ? 0.0 : f(centre);
         // Chords run towards the Moon's centre: angle v along them, u across.
         const Vec across = cross(centre, moon);
         const Vec sideways = length(across) > 1e-12 ? normalized(across) : perpendicular(centre);
@@ -58,16 +57,14 @@ public:
         // = widest pass the Moon by.
         const double moonSine = std::sqrt((1 - moonCosine) * (1 + moonCosine));
         const double widest = std::asin(std::min(1.0, std::asin(moonSine) / sunAngularRadius_));
-        std::array<double, 6> bounds{-0.5 * std::numbers::pi, -crossing, -widest, widest, crossing,
-                                     0.5 * std::numbers::pi};
+        std::array<double, 6> bounds{-0.5 * std::numbers::pi, -crossing, -widest, widest, crossing, 0.5 * std::numbers::pi};
         std::sort(bounds.begin(), bounds.end());
         double sum = 0;
         for (std::size_t part = 0; part + 1 < bounds.size(); ++part) {
             const double half = 0.5 * (bounds[part + 1] - bounds[part]);
             for (std::size_t i = 0; half > 1e-9 && i < rule.node.size(); ++i) {
                 const double t = bounds[part] + half * (1 + rule.node[i]), u = sunAngularRadius_ * std::sin(t);
-                const double squared =
-                    std::sin(0.5 * (sunAngularRadius_ + u)) * std::sin(0.5 * (sunAngularRadius_ - u)) / std::cos(u);
+                const double squared = std::sin(0.5 * (sunAngularRadius_ + u)) * std::sin(0.5 * (sunAngularRadius_ - u)) / std::cos(u);
                 const double halfChord = 2 * std::asin(std::sqrt(squared));
                 const auto chord = [&](double v) {
                     return std::cos(u) * (std::cos(v) * centre + std::sin(v) * towards) + std::sin(u) * sideways;
@@ -113,8 +110,8 @@ private:
     double limbCrossing(Vec centre, Vec towards, Vec sideways, Vec moon, double moonCosine) const
     {
         const auto hidden = [&](double w) { // w from the side of the Moon around the limb
-            const Vec limb = std::cos(sunAngularRadius_) * centre +
-                             std::sin(sunAngularRadius_) * (std::cos(w) * towards + std::sin(w) * sideways);
+            const Vec limb =
+                std::cos(sunAngularRadius_) * centre + std::sin(sunAngularRadius_) * (std::cos(w) * towards + std::sin(w) * sideways);
             return dot(limb, moon) >= moonCosine;
         };
         double in = 0, out = std::numbers::pi;

@@ -5,10 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace sky::montecarlo
-{
-namespace
-{
+namespace sky::montecarlo {
+namespace {
 
 using base::pi;
 
@@ -48,8 +46,8 @@ double PathTracer::batchMean(Random& random, int paths)
     return sum / paths;
 }
 
-void PathTracer::prepare(const Place& place, Vec direction, const Ray& ray, const Leg& leg, double groundAlbedo,
-                         bool guide, Choice& choice) const
+void PathTracer::prepare(const Place& place, Vec direction, const Ray& ray, const Leg& leg, double groundAlbedo, bool guide,
+                         Choice& choice) const
 {
     const double radius = air_.profile().planetRadius();
     const double upSun = (radius + place.altitude) * dot(place.up, scene_.sun.centre());
@@ -70,8 +68,7 @@ void PathTracer::prepare(const Place& place, Vec direction, const Ray& ray, cons
     };
     for (const Segment& segment : leg.segments) {
         const double middle = 0.5 * (segment.begin + segment.end);
-        add(-transmittance * std::expm1(-segment.opticalDepth),
-            air_.guide()(segment.shell, muSunAt(middle)) * bright(middle));
+        add(-transmittance * std::expm1(-segment.opticalDepth), air_.guide()(segment.shell, muSunAt(middle)) * bright(middle));
         transmittance *= std::exp(-segment.opticalDepth);
     }
     if (leg.hitsGround && groundAlbedo > 0) {
@@ -93,8 +90,7 @@ void PathTracer::prepare(const Place& place, Vec direction, const Ray& ray, cons
     }
 }
 
-bool PathTracer::advance(Place& place, Vec direction, const Ray& ray, const Leg& leg, const Choice& choice, double u,
-                         double& weight) const
+bool PathTracer::advance(Place& place, Vec direction, const Ray& ray, const Leg& leg, const Choice& choice, double u, double& weight) const
 {
     const double radius = air_.profile().planetRadius();
     const double target = u * choice.cumulative.back();
@@ -197,8 +193,7 @@ double PathTracer::path(Random& random, const Decisions& decisions)
         if (!onGround && !(local_.extinction > 0))
             return radiance;
         if (order >= orders_.first)
-            radiance +=
-                weight * (onGround ? sunlightAtGround(place, random) : sunlightAtAir(place, direction, local_, random));
+            radiance += weight * (onGround ? sunlightAtGround(place, random) : sunlightAtAir(place, direction, local_, random));
         if (order == orders_.last)
             return radiance;
 

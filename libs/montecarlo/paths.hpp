@@ -7,8 +7,7 @@
 #include <array>
 #include <vector>
 
-namespace sky::montecarlo
-{
+namespace sky::montecarlo {
 
 /// Which events a path counts: those of order `first` .. `last`; last = 0 means all.
 struct Orders {
@@ -42,11 +41,9 @@ private:
         std::vector<double> weight;     // what an event there stands for
         bool possible = false;
     };
-    void prepare(const Place& place, Vec direction, const Ray& ray, const Leg& leg, double groundAlbedo, bool guide,
-                 Choice& choice) const;
+    void prepare(const Place& place, Vec direction, const Ray& ray, const Leg& leg, double groundAlbedo, bool guide, Choice& choice) const;
     /// Moves to the next event; returns whether it is on the ground. Multiplies `weight`.
-    bool advance(Place& place, Vec direction, const Ray& ray, const Leg& leg, const Choice& choice, double u,
-                 double& weight) const;
+    bool advance(Place& place, Vec direction, const Ray& ray, const Leg& leg, const Choice& choice, double u, double& weight) const;
     double path(Random& random, const Decisions& decisions);
     /// Direction after a scattering. In peaked air some are drawn about the Sun, as if the light had come from there: else sunlight is met in
     /// rare bright flashes, of which the standard error knows nothing (Buras, Mayer 2011, J. Quant. Spectrosc. Radiat. Transfer 112, 434).

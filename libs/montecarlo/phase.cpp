@@ -6,10 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-namespace sky::montecarlo
-{
-namespace
-{
+namespace sky::montecarlo {
+namespace {
 
 constexpr std::size_t guideBins = 4096;
 constexpr double linearWithin = 0.01; // the sampled density departs from the true one by about this much at most
@@ -17,8 +15,7 @@ constexpr int maxHalvings = 8;
 
 } // namespace
 
-PhaseTable::PhaseTable(const std::vector<double>& angles, const std::vector<double>& values)
-    : angles_(angles), values_(values)
+PhaseTable::PhaseTable(const std::vector<double>& angles, const std::vector<double>& values) : angles_(angles), values_(values)
 {
     for (const double v : values_)
         logs_.push_back(v > 0 ? std::log(v) : 0);
@@ -61,8 +58,8 @@ std::size_t PhaseTable::intervalOf(double angle) const
     if (angle < angles_[i + 1] || i + 2 >= angles_.size())
         return i;
     const std::size_t last = bin + 1 < guideBins ? guide_[bin + 1] + 1 : angles_.size() - 1;
-    const auto after = std::upper_bound(angles_.begin() + static_cast<std::ptrdiff_t>(i) + 1,
-                                        angles_.begin() + static_cast<std::ptrdiff_t>(last), angle);
+    const auto after =
+        std::upper_bound(angles_.begin() + static_cast<std::ptrdiff_t>(i) + 1, angles_.begin() + static_cast<std::ptrdiff_t>(last), angle);
     i = static_cast<std::size_t>(after - angles_.begin()) - 1;
     return std::min(i, angles_.size() - 2);
 }

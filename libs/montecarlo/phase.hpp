@@ -3,8 +3,7 @@
 
 #include <vector>
 
-namespace sky::montecarlo
-{
+namespace sky::montecarlo {
 
 /// Phase function, log-linear in the scattering angle between nodes (linear where an end is zero), used as tabulated:
 /// if its integral is not 1, the difference is lost or gained at each scattering.

@@ -5,10 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace sky::montecarlo
-{
-namespace
-{
+namespace sky::montecarlo {
+namespace {
 
 using physics::Medium;
 using physics::Species;
@@ -26,8 +24,8 @@ double extinctionOf(const Medium& medium, int wavelength, std::size_t interval, 
 {
     double sum = 0;
     for (const Species& species : medium.species)
-        sum += species.extinctionCrossSection[wavelength] *
-               between(species.numberDensity[interval], species.numberDensity[interval + 1], t);
+        sum +=
+            species.extinctionCrossSection[wavelength] * between(species.numberDensity[interval], species.numberDensity[interval + 1], t);
     return sum;
 }
 
@@ -65,8 +63,7 @@ std::array<double, 6> powersFromLegendre(const std::array<double, 6>& c)
 
 } // namespace
 
-Profile::Profile(const Medium& medium, int wavelength)
-    : planetRadius_(medium.planetRadius), topOfAtmosphere_(medium.topOfAtmosphere)
+Profile::Profile(const Medium& medium, int wavelength) : planetRadius_(medium.planetRadius), topOfAtmosphere_(medium.topOfAtmosphere)
 {
     const Rule gauss = gaussLegendre(samplesPerInterval);
     std::vector<double> stations{0};
@@ -80,8 +77,7 @@ Profile::Profile(const Medium& medium, int wavelength)
                 const double altitude = low + t * (high - low);
                 // dX = 2 r dh: the weights integrate over X.
                 const double weight = gauss.weight[k] * (high - low) / parts * (planetRadius_ + altitude);
-                samples.push_back(
-                    {radialSquare(planetRadius_, altitude), extinctionOf(medium, wavelength, i, t), weight});
+                samples.push_back({radialSquare(planetRadius_, altitude), extinctionOf(medium, wavelength, i, t), weight});
             }
             const double end = part + 1 == parts ? high : low + (high - low) * (part + 1) / parts;
             stations.push_back(radialSquare(planetRadius_, end));
@@ -164,8 +160,8 @@ double Profile::Shell::integral(const Ray& ray, double begin, double end) const
 
 int Profile::shellAt(double x) const
 {
-    const auto after = std::upper_bound(shells_.begin(), shells_.end(), x,
-                                        [](double value, const Shell& shell) { return value < shell.high; });
+    const auto after =
+        std::upper_bound(shells_.begin(), shells_.end(), x, [](double value, const Shell& shell) { return value < shell.high; });
     return std::min(static_cast<int>(after - shells_.begin()), shellCount() - 1);
 }
 
@@ -242,9 +238,6 @@ double Profile::extinction(double altitude) const
     return std::max(0.0, shells_[shellAt(x)].value(x));
 }
 
-double Profile::middleAltitude(int shell) const
-{
-    return altitudeOf(planetRadius_, shells_[shell].middle);
-}
+double Profile::middleAltitude(int shell) const { return altitudeOf(planetRadius_, shells_[shell].middle); }
 
 } // namespace sky::montecarlo

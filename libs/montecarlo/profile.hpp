@@ -7,8 +7,7 @@
 #include <array>
 #include <vector>
 
-namespace sky::montecarlo
-{
+namespace sky::montecarlo {
 
 /// The part of a ray inside one shell.
 struct Segment {

@@ -5,8 +5,7 @@
 #include <numbers>
 #include <vector>
 
-namespace sky::montecarlo
-{
+namespace sky::montecarlo {
 
 struct Rule {
     std::vector<double> node;   ///< in (-1, 1)

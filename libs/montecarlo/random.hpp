@@ -5,8 +5,7 @@
 #include <bit>
 #include <cstdint>
 
-namespace sky::montecarlo
-{
+namespace sky::montecarlo {
 
 /// Finaliser of SplitMix64 (Steele, Lea, Flood 2014): a bijection of 64-bit words that scatters neighbouring inputs.
 constexpr std::uint64_t scramble(std::uint64_t x)

@@ -7,10 +7,8 @@
 #include <optional>
 #include <sstream>
 
-namespace sky::montecarlo
-{
-namespace
-{
+namespace sky::montecarlo {
+namespace {
 
 /// Unit vector of a zenith angle and an azimuth from the Sun's.
 Vec directionOf(double zenithAngle, double relativeAzimuth)
@@ -49,14 +47,14 @@ void checkSpecies(const physics::Medium& medium, const physics::Species& species
 {
     constexpr double huge = 1e300;
     const std::size_t wavelengths = medium.wavelengthsNm.size();
-    require(species.numberDensity.size() == medium.altitudes.size() && allWithin(species.numberDensity, 0, huge),
-            "number density of `", species.name, "`: expected one finite value >= 0 per altitude node");
+    require(species.numberDensity.size() == medium.altitudes.size() && allWithin(species.numberDensity, 0, huge), "number density of `",
+            species.name, "`: expected one finite value >= 0 per altitude node");
     require(species.extinctionCrossSection.size() == wavelengths && allWithin(species.extinctionCrossSection, 0, huge),
             "cross section of `", species.name, "`: expected one finite value >= 0 per wavelength");
     require(species.singleScatteringAlbedo.size() == wavelengths && allWithin(species.singleScatteringAlbedo, 0, 1),
             "single-scattering albedo of `", species.name, "`: expected one value within 0..1 per wavelength");
-    require(!species.scatters() || (species.phaseFunction.size() == medium.scatteringAngles.size() * wavelengths &&
-                                    allWithin(species.phaseFunction, 0, huge)),
+    require(!species.scatters() ||
+                (species.phaseFunction.size() == medium.scatteringAngles.size() * wavelengths && allWithin(species.phaseFunction, 0, huge)),
             "phase function of `", species.name, "`: expected one finite value >= 0 per angle and wavelength");
 }
 
@@ -102,10 +100,9 @@ Result scaled(const Result& result, double solarIrradiance)
 
 Reference::Reference(physics::Medium medium) : medium_(std::move(medium)), slots_(medium_.wavelengthsNm.size())
 {
-    require(medium_.planetRadius > 0 && medium_.topOfAtmosphere > 0,
-            "planet radius and top of the atmosphere: expected positive lengths");
-    require(medium_.sunAngularRadius >= 0 && medium_.sunAngularRadius < 1.5, "angular radius of the Sun ",
-            medium_.sunAngularRadius, " rad: expected 0 to 1.5");
+    require(medium_.planetRadius > 0 && medium_.topOfAtmosphere > 0, "planet radius and top of the atmosphere: expected positive lengths");
+    require(medium_.sunAngularRadius >= 0 && medium_.sunAngularRadius < 1.5, "angular radius of the Sun ", medium_.sunAngularRadius,
+            " rad: expected 0 to 1.5");
     require(increasing(medium_.altitudes) && medium_.altitudes.front() >= 0 && medium_.altitudes.front() <= 0,
             "altitude nodes: expected at least two, increasing from 0");
     require(medium_.groundAlbedo.size() == medium_.wavelengthsNm.size() && allWithin(medium_.groundAlbedo, 0, 1),
@@ -128,12 +125,10 @@ const Air& Reference::air(int wavelength) const
 
 void Reference::check(const Query& query) const
 {
-    require(query.wavelength >= 0 && query.wavelength < medium_.wavelengthCount(), "wavelength index ",
-            query.wavelength, ": expected 0 to ", medium_.wavelengthCount() - 1);
-    require(query.altitude >= 0 && std::isfinite(query.altitude), "camera altitude ", query.altitude,
-            " m: expected a finite value >= 0");
-    require(std::isfinite(query.sunZenithAngle) && std::isfinite(query.viewZenithAngle) &&
-                std::isfinite(query.relativeAzimuth),
+    require(query.wavelength >= 0 && query.wavelength < medium_.wavelengthCount(), "wavelength index ", query.wavelength,
+            ": expected 0 to ", medium_.wavelengthCount() - 1);
+    require(query.altitude >= 0 && std::isfinite(query.altitude), "camera altitude ", query.altitude, " m: expected a finite value >= 0");
+    require(std::isfinite(query.sunZenithAngle) && std::isfinite(query.viewZenithAngle) && std::isfinite(query.relativeAzimuth),
             "sun zenith angle, view zenith angle and relative azimuth: expected finite values");
     if (!query.moon)
         return;
@@ -141,8 +136,8 @@ void Reference::check(const Query& query) const
     require(std::isfinite(moon.zenithAngle) && std::isfinite(moon.relativeAzimuth),
             "zenith angle and azimuth of the Moon: expected finite values");
     const double highest = medium_.planetRadius + std::max(medium_.topOfAtmosphere, query.altitude);
-    require(moon.radius > 0 && moon.distance > highest + moon.radius && moon.sunDistance > moon.distance,
-            "The Moon, ", moon.distance, " m from the planet's centre: expected more than ", highest + moon.radius,
+    require(moon.radius > 0 && moon.distance > highest + moon.radius && moon.sunDistance > moon.distance, "The Moon, ", moon.distance,
+            " m from the planet's centre: expected more than ", highest + moon.radius,
             " m, which keeps it clear of the air and of the camera, and less than the Sun's distance");
 }
 

@@ -13,8 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace sky::montecarlo
-{
+namespace sky::montecarlo {
 
 class Air;
 struct GroundDisc; // ground_light.hpp
@@ -25,16 +24,16 @@ struct MoonPlace {
     double relativeAzimuth = 0; ///< minus that of the Sun, counted as Query::relativeAzimuth
     double distance = 0;        ///< from the planet's centre
     double radius = 0;
-    double sunDistance = 0;     ///< from the planet's centre
+    double sunDistance = 0; ///< from the planet's centre
 };
 
 /// Where the camera stands, where the Sun is and where the camera looks. SI, radians.
 struct Query {
-    double altitude = 0;        ///< m, >= 0; may be above the atmosphere
-    double sunZenithAngle = 0;  ///< of the centre of the disc, at the camera
-    double viewZenithAngle = 0; ///< 0 up, pi/2 horizontal
-    double relativeAzimuth = 0; ///< of the view minus that of the Sun: 0 = towards the Sun
-    int wavelength = 0;         ///< index into Medium::wavelengthsNm
+    double altitude = 0;             ///< m, >= 0; may be above the atmosphere
+    double sunZenithAngle = 0;       ///< of the centre of the disc, at the camera
+    double viewZenithAngle = 0;      ///< 0 up, pi/2 horizontal
+    double relativeAzimuth = 0;      ///< of the view minus that of the Sun: 0 = towards the Sun
+    int wavelength = 0;              ///< index into Medium::wavelengthsNm
     std::optional<MoonPlace> moon{}; ///< none: no eclipse
 };
 

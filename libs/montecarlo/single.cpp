@@ -4,10 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-namespace sky::montecarlo
-{
-namespace
-{
+namespace sky::montecarlo {
+namespace {
 
 constexpr double halvingTolerance = 2e-5;
 constexpr int mostHalvings = 4; // each costs a factor of 4 to 8
@@ -17,16 +15,14 @@ double integrate(const Air& air, const Scene& scene, const Leg& leg, int halving
     const Profile& profile = air.profile();
     const double radius = profile.planetRadius();
     const Ray ray = rayFrom(radius, scene.camera, scene.view);
-    const Rule steps = gaussLegendre(4), across = gaussLegendre(4 + 2 * halvings),
-               along = gaussLegendre(6 + 3 * halvings);
+    const Rule steps = gaussLegendre(4), across = gaussLegendre(4 + 2 * halvings), along = gaussLegendre(6 + 3 * halvings);
     Local local;
     double sum = 0, depthBefore = 0;
     for (const Segment& segment : leg.segments) {
         // A step is short against the mean free path and against the turning of the vertical along the ray.
         const double length = segment.end - segment.begin;
         const double turns = length / (radius + scene.camera.altitude) / 0.003;
-        const int count = std::clamp(static_cast<int>(std::ceil(std::max(2 * segment.opticalDepth, turns))), 1, 64)
-                          << halvings;
+        const int count = std::clamp(static_cast<int>(std::ceil(std::max(2 * segment.opticalDepth, turns))), 1, 64) << halvings;
         const double step = length / count;
         for (int i = 0; i < count; ++i)
             for (std::size_t k = 0; k < steps.node.size(); ++k) {
@@ -67,9 +63,8 @@ double groundDirect(const Air& air, const Scene& scene, const Leg& leg)
     Place ground = moved(radius, scene.camera, scene.view, ray, leg.length);
     ground.altitude = 0;
     const Rule rule = gaussLegendre(24);
-    const double irradiance = averageSun(scene, radius, ground, rule, rule, [&](Vec sun) {
-        return std::max(0.0, dot(ground.up, sun)) * air.transmittance(ground, sun);
-    });
+    const double irradiance = averageSun(scene, radius, ground, rule, rule,
+                                         [&](Vec sun) { return std::max(0.0, dot(ground.up, sun)) * air.transmittance(ground, sun); });
     return air.groundAlbedo() / std::numbers::pi * std::exp(-leg.opticalDepth) * irradiance;
 }
 

@@ -7,8 +7,7 @@
 
 #include <optional>
 
-namespace sky::montecarlo
-{
+namespace sky::montecarlo {
 
 /// A camera inside the atmosphere, the direction it looks in and the Sun.
 struct Scene {
@@ -27,8 +26,7 @@ struct Integral {
 template<class F>
 double averageSun(const Scene& scene, double planetRadius, const Place& place, const Rule& across, const Rule& along, F&& f)
 {
-    return scene.eclipse ? scene.eclipse->average(planetRadius, place, along, f)
-                         : scene.sun.average(planetRadius, place, across, along, f);
+    return scene.eclipse ? scene.eclipse->average(planetRadius, place, along, f) : scene.sun.average(planetRadius, place, across, along, f);
 }
 
 /// Radiance of sunlight scattered exactly once in the air, per unit solar irradiance, 1/sr.

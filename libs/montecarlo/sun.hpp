@@ -7,8 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace sky::montecarlo
-{
+namespace sky::montecarlo {
 
 class SunDisc
 {
@@ -60,8 +59,7 @@ public:
             double chord = 0;
             for (std::size_t k = 0; k < along.node.size(); ++k) {
                 const double v = low + scale * (1 + along.node[k]);
-                chord += along.weight[k] *
-                         f(std::cos(u) * (std::cos(v) * centre_ + std::sin(v) * upwards) + std::sin(u) * sideways);
+                chord += along.weight[k] * f(std::cos(u) * (std::cos(v) * centre_ + std::sin(v) * upwards) + std::sin(u) * sideways);
             }
             sum += across.weight[i] * 0.5 * std::numbers::pi * radius_ * std::cos(t) * std::cos(u) * scale * chord;
         }

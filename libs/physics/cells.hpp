@@ -12,8 +12,7 @@ class CellDivision
 public:
     /// \param depth      optical depth of the stretch
     /// \param cellDepth  wanted of the first cell
-    CellDivision(double from, double to, int count, double depth, double cellDepth)
-        : from_(from), length_(to - from), count_(count)
+    CellDivision(double from, double to, int count, double depth, double cellDepth) : from_(from), length_(to - from), count_(count)
     {
         const double excess = std::min(depth / (count * cellDepth), 1e12); // sinh(a) / a
         if (!(excess > 1))

@@ -12,10 +12,10 @@ namespace sky::physics {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-constexpr int degreeOfCities = 4;   // of the harmonics of what is scattered more than once
-constexpr int linkElevations = 48;  // sine of the elevation at the ground: sinh(4 t) / sinh 4
+constexpr int degreeOfCities = 4;  // of the harmonics of what is scattered more than once
+constexpr int linkElevations = 48; // sine of the elevation at the ground: sinh(4 t) / sinh 4
 constexpr double linkScale = 4;
-constexpr int phaseAngles = 1024;   // theta = pi t^3
+constexpr int phaseAngles = 1024;      // theta = pi t^3
 constexpr double lowestAltitude = 0.1; // m; nearer, the disc fills the lower half space
 constexpr int mostElements = 40;
 
@@ -35,8 +35,8 @@ void addElement(const float* __restrict columns, const float* __restrict extinct
 }
 
 SKY_WIDEST_VECTORS
-void addTerms(const float* __restrict moments, const float* __restrict factors, const float* __restrict lambdas, int degree,
-              int scatterers, int stride, float* __restrict sums, float* __restrict result)
+void addTerms(const float* __restrict moments, const float* __restrict factors, const float* __restrict lambdas, int degree, int scatterers,
+              int stride, float* __restrict sums, float* __restrict result)
 {
     for (int l = 0, lm = 0; l <= degree; ++l) {
         for (int w = 0; w < stride; ++w)
@@ -58,8 +58,8 @@ CityAir::CityAir(const Medium& medium)
           const Profile coarse(medium, 1e-3);
           return coarse.withShellsAt(altitudeNodes(coarse.planet(), 48));
       }()),
-      optics_(makeOptics(medium, degreeOfCities, true)), stride_((medium.wavelengthCount() + 3) / 4 * 4),
-      species_(optics_.species), altitudes_(profile_.shells())
+      optics_(makeOptics(medium, degreeOfCities, true)), stride_((medium.wavelengthCount() + 3) / 4 * 4), species_(optics_.species),
+      altitudes_(profile_.shells())
 {
     const int wavelengths = optics_.wavelengths;
     extinction_.assign(size_t(species_) * stride_, 0.F);

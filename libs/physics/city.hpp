@@ -15,10 +15,10 @@ namespace sky::physics {
 
 /// A ray from a place near a city. Angles at the planet's centre are rad.
 struct CityView {
-    double altitude = 0;   ///< of the start, m, in the air
-    double mu = 1;         ///< cosine of the ray's zenith angle
-    double fromCity = 0;   ///< angle between the vertical of the start and the axis of the city
-    double alongAxis = 1;  ///< cosine of the angle between the ray and the axis
+    double altitude = 0;  ///< of the start, m, in the air
+    double mu = 1;        ///< cosine of the ray's zenith angle
+    double fromCity = 0;  ///< angle between the vertical of the start and the axis of the city
+    double alongAxis = 1; ///< cosine of the angle between the ray and the axis
     bool hitsGround = false;
 };
 
@@ -72,11 +72,11 @@ private:
     Profile profile_;
     Optics optics_;
     int stride_, species_;
-    std::vector<double> altitudes_;       // of the links
-    std::vector<float> links_;            // [altitude][elevation][species], m^-3: mean density between the ground and the altitude
-    std::vector<float> extinction_;       // [species][stride], m^2 / ln 2
-    std::vector<float> phases_;           // [scatterer][angle][stride], sr^-1
-    std::vector<float> lambdas_;          // [scatterer][l][stride]
+    std::vector<double> altitudes_; // of the links
+    std::vector<float> links_;      // [altitude][elevation][species], m^-3: mean density between the ground and the altitude
+    std::vector<float> extinction_; // [species][stride], m^2 / ln 2
+    std::vector<float> phases_;     // [scatterer][angle][stride], sr^-1
+    std::vector<float> lambdas_;    // [scatterer][l][stride]
 };
 
 /// A ray through the air near cities, followed once for all of them.

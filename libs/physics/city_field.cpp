@@ -194,10 +194,7 @@ double CityField::position(const double fromCity) const
     return std::clamp(std::asinh(fromCity / scale_) / std::asinh(farthest_ / scale_), 0., 1.) * (angles_ - 1);
 }
 
-double CityField::angleAt(const int node) const
-{
-    return scale_ * std::sinh(std::asinh(farthest_ / scale_) * node / (angles_ - 1));
-}
+double CityField::angleAt(const int node) const { return scale_ * std::sinh(std::asinh(farthest_ / scale_) * node / (angles_ - 1)); }
 
 void CityField::interpolate(const double altitude, const double fromCity, float* const result) const
 {
@@ -301,21 +298,22 @@ CityField::CityField(const CityAir& air, const double discRadius)
                                             directions[a].hitsGround[d]};
                         std::fill(radiance.begin(), radiance.end(), 0.F);
                         findNodes(air, discRadius, view, ray, fieldNearNodes, scratch.nodes);
-                        integrate(air, view, ray.columns, scratch,
-                                  [&](const Node& n, float* source) {
-                                      if (event == 1) {
-                                          air.scattered(n.altitude, n.fromCity, discRadius, n.mu, n.cosine, n.sine, scratch.air, source);
-                                          return;
-                                      }
-                                      std::fill(source, source + air.scatterers() * stride_, 0.F);
-                                      addScattered(air, *this, n, scratch, source);
-                                  },
-                                  radiance.data());
+                        integrate(
+                            air, view, ray.columns, scratch,
+                            [&](const Node& n, float* source) {
+                                if (event == 1) {
+                                    air.scattered(n.altitude, n.fromCity, discRadius, n.mu, n.cosine, n.sine, scratch.air, source);
+                                    return;
+                                }
+                                std::fill(source, source + air.scatterers() * stride_, 0.F);
+                                addScattered(air, *this, n, scratch, source);
+                            },
+                            radiance.data());
                         if (event > 1 && view.hitsGround) {
                             groundIrradiance(nodeAt(p, view, ray.columns.distances.back()).fromCity, ground.data());
                             for (int w = 0; w < wavelengths; ++w)
-                                radiance[w] += static_cast<float>(ray.columns.groundTransmittance[w] * air.medium().groundAlbedo[w] / pi) *
-                                               ground[w];
+                                radiance[w] +=
+                                    static_cast<float>(ray.columns.groundTransmittance[w] * air.medium().groundAlbedo[w] / pi) * ground[w];
                         }
                         // Both sides of the plane through the city.
                         const double solidAngle = directions[a].weight[d] * 2 * azimuths.weights[k] * 2 * pi * x;
@@ -344,20 +342,21 @@ CityField::CityField(const CityAir& air, const double discRadius)
     keep(light.whole(), irradiance.whole());
 }
 
-void cityRadiance(const CityAir& air, const CityField* const field, const double discRadius, const CityView& view,
-                  const CityColumns& ray, const bool direct, double* const result)
+void cityRadiance(const CityAir& air, const CityField* const field, const double discRadius, const CityView& view, const CityColumns& ray,
+                  const bool direct, double* const result)
 {
     const int stride = air.stride(), wavelengths = air.optics().wavelengths;
     Scratch scratch;
     std::vector<float> radiance(stride, 0.F);
     findNodes(air, discRadius, view, ray, viewNearNodes, scratch.nodes);
-    integrate(air, view, ray.columns, scratch,
-              [&](const Node& n, float* source) {
-                  air.scattered(n.altitude, n.fromCity, discRadius, n.mu, n.cosine, n.sine, scratch.air, source);
-                  if (field)
-                      addScattered(air, *field, n, scratch, source);
-              },
-              radiance.data());
+    integrate(
+        air, view, ray.columns, scratch,
+        [&](const Node& n, float* source) {
+            air.scattered(n.altitude, n.fromCity, discRadius, n.mu, n.cosine, n.sine, scratch.air, source);
+            if (field)
+                addScattered(air, *field, n, scratch, source);
+        },
+        radiance.data());
     for (int w = 0; w < wavelengths; ++w)
         result[w] = std::max(0., double(radiance[w]));
     if (!view.hitsGround)

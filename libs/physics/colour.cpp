@@ -47,8 +47,7 @@ XYZ blackBody(double temperature)
     XYZ sum{};
     for (const MatchingRow& row : matchingTable()) {
         // Relative to the value at 560 nm, so that nothing overflows at low temperatures.
-        const double planck = std::pow(560 / row.nm, 5) * std::expm1(c2 / (560 * temperature)) /
-                              std::expm1(c2 / (row.nm * temperature));
+        const double planck = std::pow(560 / row.nm, 5) * std::expm1(c2 / (560 * temperature)) / std::expm1(c2 / (row.nm * temperature));
         for (std::size_t i = 0; i < 3; ++i)
             sum[i] += planck * row.value[i];
     }

@@ -7,15 +7,15 @@ namespace sky::physics {
 
 /// How finely the moments are computed. Chosen from the measured front of time against error (docs/accuracy).
 struct MomentSettings {
-    int altitudes = 16;     ///< levels before the medium asks for more
-    int suns = 32;          ///< elevations of the Sun
-    int degree = 4;         ///< of the harmonics
-    int groundDirections = 5; ///< zenith angles from nadir to the horizon
-    int limbDirections = 4;   ///< from the horizon to the horizontal
-    int skyDirections = 8;    ///< from the horizontal to the zenith
-    int azimuths = 6;       ///< over half a turn
-    int directNodes = 48;   ///< along a ray, for the first event: sunlight varies fast near the shadow's edge
-    int nodes = 12;         ///< along a ray, for later events: the scattered field is smoother
+    int altitudes = 16;        ///< levels before the medium asks for more
+    int suns = 32;             ///< elevations of the Sun
+    int degree = 4;            ///< of the harmonics
+    int groundDirections = 5;  ///< zenith angles from nadir to the horizon
+    int limbDirections = 4;    ///< from the horizon to the horizontal
+    int skyDirections = 8;     ///< from the horizontal to the zenith
+    int azimuths = 6;          ///< over half a turn
+    int directNodes = 48;      ///< along a ray, for the first event: sunlight varies fast near the shadow's edge
+    int nodes = 12;            ///< along a ray, for later events: the scattered field is smoother
     bool truncatePeaks = true; ///< delta-M scaling
     double tolerance = 2.5e-3; ///< share of the light, rms: all orders are there when an event changes their closed series by less
     int leastAzimuthal = 4;    ///< azimuthal order that all events go up to

@@ -9,22 +9,10 @@ namespace {
 
 using Vector = std::array<double, 3>;
 
-double dot(const Vector& a, const Vector& b)
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-double length(const Vector& a)
-{
-    return std::hypot(a[0], a[1], a[2]);
-}
-Vector scaled(const Vector& a, double k)
-{
-    return {k * a[0], k * a[1], k * a[2]};
-}
-Vector cross(const Vector& a, const Vector& b)
-{
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
+double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double length(const Vector& a) { return std::hypot(a[0], a[1], a[2]); }
+Vector scaled(const Vector& a, double k) { return {k * a[0], k * a[1], k * a[2]}; }
+Vector cross(const Vector& a, const Vector& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
 
 std::string kilometres(double metres)
 {
@@ -35,8 +23,7 @@ std::string kilometres(double metres)
 
 } // namespace
 
-std::array<double, 3> placeOfBody(const Planet& planet, double cameraAltitude, const std::array<double, 3>& direction,
-                                  double distance)
+std::array<double, 3> placeOfBody(const Planet& planet, double cameraAltitude, const std::array<double, 3>& direction, double distance)
 {
     // |C + t d| = distance with C the camera seen from the planet's centre: t^2 + 2 r mu t = distance^2 - r^2.
     const double r = planet.radius + cameraAltitude, b = r * direction[2], c = (distance - r) * (distance + r);
@@ -50,13 +37,11 @@ Shadow makeShadow(const EclipseBodies& bodies)
     if (!(bodies.moonRadius > 0))
         throw RangeError("The radius of the Moon is " + kilometres(bodies.moonRadius) + "; expected more than 0.");
     if (!(bodies.moonDistance > top + bodies.moonRadius))
-        throw RangeError("The Moon is " + kilometres(bodies.moonDistance) +
-                         " from the planet's centre; expected more than " + kilometres(top + bodies.moonRadius) +
-                         ", so that it touches neither the air nor the camera.");
+        throw RangeError("The Moon is " + kilometres(bodies.moonDistance) + " from the planet's centre; expected more than " +
+                         kilometres(top + bodies.moonRadius) + ", so that it touches neither the air nor the camera.");
     if (!(bodies.sunDistance > bodies.moonDistance))
         throw RangeError("The Moon is " + kilometres(bodies.moonDistance) +
-                         " from the planet's centre; expected less than the Sun's distance, " +
-                         kilometres(bodies.sunDistance) + ".");
+                         " from the planet's centre; expected less than the Sun's distance, " + kilometres(bodies.sunDistance) + ".");
     const Vector moon = placeOfBody(bodies.planet, bodies.cameraAltitude, bodies.moonDirection, bodies.moonDistance);
     const Vector sun = placeOfBody(bodies.planet, bodies.cameraAltitude, bodies.sunDirection, bodies.sunDistance);
     const Vector between{sun[0] - moon[0], sun[1] - moon[1], sun[2] - moon[2]};
@@ -106,8 +91,7 @@ GroundShadow groundShadow(const Shadow& shadow, const EclipseBodies& bodies)
         return result;
     const double half = std::sqrt(chord), depth = dot(shadow.along, centre) + half;
     for (std::size_t i = 0; i < 3; ++i)
-        result.place[i] =
-            shadow.axis[0] * shadow.across[0][i] + shadow.axis[1] * shadow.across[1][i] + depth * shadow.along[i];
+        result.place[i] = shadow.axis[0] * shadow.across[0][i] + shadow.axis[1] * shadow.across[1][i] + depth * shadow.along[i];
     result.sunElevation = std::asin(std::min(1., half / r));
     result.umbraRadius = shadow.umbraRadius(depth);
     result.penumbraRadius = shadow.penumbraRadius(depth);

@@ -176,10 +176,7 @@ struct ShadowOf {
     Real umbraRadius(Real depth) const { return -coneRadius(sunRadius - moonRadius, -moonRadius, depth); }
     Real depthOf(const std::array<Real, 3>& p) const { return dot(along, p); }
 
-    static Real dot(const std::array<Real, 3>& a, const std::array<Real, 3>& b)
-    {
-        return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    }
+    static Real dot(const std::array<Real, 3>& a, const std::array<Real, 3>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 private:
     /// Cone around both spheres: sine of its half-angle is `sum` over the distance of the centres.
@@ -210,7 +207,6 @@ struct GroundShadow {
 GroundShadow groundShadow(const Shadow& shadow, const EclipseBodies& bodies);
 
 /// Position of a body at `distance` from the planet's centre, seen in a direction: in the camera's frame, m.
-std::array<double, 3> placeOfBody(const Planet& planet, double cameraAltitude, const std::array<double, 3>& direction,
-                                  double distance);
+std::array<double, 3> placeOfBody(const Planet& planet, double cameraAltitude, const std::array<double, 3>& direction, double distance);
 
 } // namespace sky::physics

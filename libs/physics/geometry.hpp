@@ -35,16 +35,10 @@ inline double altitudeAlong(const Planet& p, double h, double mu, double s)
 }
 
 /// Cosine of the zenith angle of the geometric horizon seen from altitude h >= 0; 0 on the ground, negative above.
-inline double horizonMu(const Planet& p, double h)
-{
-    return -horizonDistance(p, h) / (p.radius + h);
-}
+inline double horizonMu(const Planet& p, double h) { return -horizonDistance(p, h) / (p.radius + h); }
 
 /// Elevation of the geometric horizon, rad, <= 0. atan2 keeps the digits that acos(mu) loses near zero.
-inline double horizonElevation(const Planet& p, double h)
-{
-    return -std::atan2(horizonDistance(p, h), p.radius);
-}
+inline double horizonElevation(const Planet& p, double h) { return -std::atan2(horizonDistance(p, h), p.radius); }
 
 /// True if the ray from altitude h meets the ground. The horizon itself misses it.
 inline bool hitsGround(const Planet& p, double h, double mu) { return mu < horizonMu(p, h); }

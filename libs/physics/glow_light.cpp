@@ -124,9 +124,8 @@ GlowLight::GlowLight(const Medium& medium, const Optics& optics, const GlowMomen
             extinction_[block * species_ + s][lane] = static_cast<float>(optics.extinction[s * wavelengths_ + w] / units_[s]);
         for (int i = 0; i < scattererCount; ++i)
             for (int l = 0; l <= degree_; ++l)
-                scattering_[(block * scattererCount + i) * harmonics + l][lane] =
-                    static_cast<float>(optics.scattering[scatterers_[i] * wavelengths_ + w] / units_[scatterers_[i]] *
-                                       optics.moment(scatterers_[i], l, w));
+                scattering_[(block * scattererCount + i) * harmonics + l][lane] = static_cast<float>(
+                    optics.scattering[scatterers_[i] * wavelengths_ + w] / units_[scatterers_[i]] * optics.moment(scatterers_[i], l, w));
     }
     std::vector<double> values(std::size_t(harmonics) * wavelengths_);
     for (int k = 0; k < levels; ++k) {
@@ -182,7 +181,8 @@ void GlowLight::scattered(const RayCells& ray, double* const result) const
 {
     const Sums sums = along(ray);
     for (int w = 0; w < wavelengths_; ++w)
-        result[w] = std::max(0., double(sums.light[w / lanes][w % lanes]) + (ray.hitsGround ? double(sums.through[w / lanes][w % lanes]) * reflected_[w] : 0));
+        result[w] = std::max(0., double(sums.light[w / lanes][w % lanes]) +
+                                     (ray.hitsGround ? double(sums.through[w / lanes][w % lanes]) * reflected_[w] : 0));
 }
 
 void GlowLight::direct(const RayCells& ray, double* const result) const
@@ -196,7 +196,8 @@ void GlowLight::seen(const RayCells& ray, double* const result) const
 {
     const Sums sums = along(ray);
     for (int w = 0; w < wavelengths_; ++w)
-        result[w] = std::max(0., double(sums.light[w / lanes][w % lanes]) + (ray.hitsGround ? double(sums.through[w / lanes][w % lanes]) * (1 + reflected_[w]) : 0));
+        result[w] = std::max(0., double(sums.light[w / lanes][w % lanes]) +
+                                     (ray.hitsGround ? double(sums.through[w / lanes][w % lanes]) * (1 + reflected_[w]) : 0));
 }
 
 } // namespace sky::physics

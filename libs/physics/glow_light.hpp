@@ -36,12 +36,12 @@ private:
     Planet planet_;
     int degree_, species_, wavelengths_;
     std::vector<int> scatterers_;
-    std::vector<double> reflected_;   ///< [wavelength]: radiance that the ground reflects
-    std::vector<double> measures_;    ///< [level], sqrt(r^2 - R^2)
-    std::vector<double> units_;       ///< [species], m^2: the largest extinction, so that single precision holds the others
-    Lanes extinction_;                ///< [block][species], in these units
-    Lanes scattering_;                ///< [block][scatterer][l]: in these units, times lambda_l
-    Lanes field_;                     ///< [block][level][l]: I_l sqrt((2 l + 1) / 4 pi)
+    std::vector<double> reflected_; ///< [wavelength]: radiance that the ground reflects
+    std::vector<double> measures_;  ///< [level], sqrt(r^2 - R^2)
+    std::vector<double> units_;     ///< [species], m^2: the largest extinction, so that single precision holds the others
+    Lanes extinction_;              ///< [block][species], in these units
+    Lanes scattering_;              ///< [block][scatterer][l]: in these units, times lambda_l
+    Lanes field_;                   ///< [block][level][l]: I_l sqrt((2 l + 1) / 4 pi)
 };
 
 } // namespace sky::physics

@@ -62,7 +62,8 @@ public:
                 const double altitude = grid.altitudes()[a];
                 const auto all = directionsAt(profile.planet(), altitude, directions);
                 for (size_t d = 0; d < all.mu.size(); ++d)
-                    levels_[a].push_back({all.weight[d] * 2 * pi, tracer.cells(altitude, all.mu[d], all.hitsGround[d], GlowLight::deepest)});
+                    levels_[a].push_back(
+                        {all.weight[d] * 2 * pi, tracer.cells(altitude, all.mu[d], all.hitsGround[d], GlowLight::deepest)});
             }
         });
     }
@@ -168,7 +169,8 @@ GlowField solveGroundGlow(const Medium& medium, const Profile& profile, const Op
     const Sweeps sweeps(medium, profile, optics, grid, settings);
     const auto moments = [&](const Sums& sums) { return asMoments(grid, degree, wavelengths, sums); };
     GlowField field;
-    const Sums none{std::vector<double>(size_t(grid.altitudeCount()) * (degree + 1) * wavelengths, 0.), std::vector<double>(wavelengths, 0.)};
+    const Sums none{std::vector<double>(size_t(grid.altitudeCount()) * (degree + 1) * wavelengths, 0.),
+                    std::vector<double>(wavelengths, 0.)};
     GeometricSeries<double> light(degree + 1, wavelengths), irradiance(1, wavelengths);
     const auto add = [&](Sums event) {
         light.add(std::move(event.moments));

@@ -60,8 +60,7 @@ void phaseFunctionAt(const Medium& medium, const Species& species, const double 
 {
     const auto& angles = medium.scatteringAngles;
     const int wavelengths = medium.wavelengthCount();
-    const size_t k = std::clamp<size_t>(std::upper_bound(angles.begin(), angles.end(), theta) - angles.begin(), 1,
-                                        angles.size() - 1) - 1;
+    const size_t k = std::clamp<size_t>(std::upper_bound(angles.begin(), angles.end(), theta) - angles.begin(), 1, angles.size() - 1) - 1;
     const double x = std::clamp((theta - angles[k]) / (angles[k + 1] - angles[k]), 0., 1.);
     for (int w = 0; w < wavelengths; ++w) {
         const double p0 = species.phaseFunction[k * wavelengths + w], p1 = species.phaseFunction[(k + 1) * wavelengths + w];

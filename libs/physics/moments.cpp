@@ -38,8 +38,8 @@ double sunScaleFor(const double sunset)
 
 } // namespace
 
-MomentGrid::MomentGrid(const Profile& profile, const std::vector<double>& largestExtinction, const int altitudeCount,
-                       const int sunCount, const double sunRadius)
+MomentGrid::MomentGrid(const Profile& profile, const std::vector<double>& largestExtinction, const int altitudeCount, const int sunCount,
+                       const double sunRadius)
     : planet_(profile.planet()), sunCount_(sunCount)
 {
     const double top = planet_.topOfAtmosphere;
@@ -72,8 +72,8 @@ MomentGrid::MomentGrid(const Profile& profile, const std::vector<double>& larges
     };
     for (size_t k = 1; k + 1 < shells.size(); ++k) {
         const double below = extinctionAt(static_cast<int>(k) - 1, shells[k]), above = extinctionAt(static_cast<int>(k), shells[k]);
-        const bool steep = shells[k + 1] - shells[k] < 1e-5 * top &&
-                           std::abs(extinctionAt(static_cast<int>(k), shells[k + 1]) - above) * top > 0.02;
+        const bool steep =
+            shells[k + 1] - shells[k] < 1e-5 * top && std::abs(extinctionAt(static_cast<int>(k), shells[k + 1]) - above) * top > 0.02;
         if (steep || std::abs(above - below) * top > 0.02 * std::max(1., depth.back()))
             levels.push_back(0.5 * (shells[k] + shells[k + 1]) - (steep ? 0 : 0.5 * (shells[k + 1] - shells[k])));
     }
@@ -139,8 +139,7 @@ Stencil MomentGrid::altitudeStencil(const double altitude) const
 {
     const int n = altitudeCount();
     const double x = horizonDistance(planet_, altitude);
-    const int k = std::clamp(static_cast<int>(std::upper_bound(measure_.begin(), measure_.end(), x) - measure_.begin()) - 1, 0,
-                             n - 2);
+    const int k = std::clamp(static_cast<int>(std::upper_bound(measure_.begin(), measure_.end(), x) - measure_.begin()) - 1, 0, n - 2);
     const double gap = measure_[k + 1] - measure_[k], t = std::clamp((x - measure_[k]) / gap, 0., 1.);
     // Hermite basis; the slope at a level is that of the parabola through it and its neighbours, at the ground through the next two
     // (in haze the field is even in the measure there). A chord takes its place at the top, and where the neighbour is much nearer than

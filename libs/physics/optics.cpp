@@ -74,8 +74,7 @@ Optics makeOptics(const Medium& medium, const int degree, const bool truncate)
             optics.extinction[s * wavelengths + w] = sigma - f * sigmaScattering;
             optics.scattering[s * wavelengths + w] = (1 - f) * sigmaScattering;
             for (int l = 0; l <= degree; ++l)
-                optics.moments[(s * (degree + 1) + l) * wavelengths + w] =
-                    sigmaScattering > 0 ? (moments[l] - f) / (1 - f) : 0;
+                optics.moments[(s * (degree + 1) + l) * wavelengths + w] = sigmaScattering > 0 ? (moments[l] - f) / (1 - f) : 0;
         }
         if (scatters)
             optics.scatterers.push_back(s);

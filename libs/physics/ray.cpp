@@ -5,8 +5,7 @@
 
 namespace sky::physics {
 
-RayTracer::RayTracer(const Profile& profile, const Optics& optics, const double cellScale)
-    : profile_(profile), optics_(optics)
+RayTracer::RayTracer(const Profile& profile, const Optics& optics, const double cellScale) : profile_(profile), optics_(optics)
 {
     limits_.steepness *= cellScale;
     limits_.length *= cellScale;

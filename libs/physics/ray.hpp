@@ -22,7 +22,7 @@ struct RayNodes {
         double mu;       ///< cosine of the ray's zenith angle at the node
     };
     std::vector<Node> nodes;
-    std::vector<double> weights;             ///< [node][scatterer][wavelength], dimensionless: scattering optical depth seen
+    std::vector<double> weights; ///< [node][scatterer][wavelength], dimensionless: scattering optical depth seen
     bool hitsGround = false;
     Node ground{};                           ///< where the ray meets the ground, if it does
     std::vector<double> groundTransmittance; ///< [wavelength], 0 if the ray misses the ground
@@ -39,12 +39,12 @@ struct SeenColumns {
 
 /// A ray in the fine cells that its integrals run over, for fields that are known everywhere.
 struct RayCells {
-    double altitude = 0, mu = 1;    ///< m, where it starts, and the cosine of its zenith angle there
+    double altitude = 0, mu = 1; ///< m, where it starts, and the cosine of its zenith angle there
     bool hitsGround = false;
-    std::vector<double> bounds;     ///< [cells + 1], m, from 0 to the ground or to space
-    std::vector<double> altitudes;  ///< [cells + 1], m, there
-    std::vector<double> columns;    ///< [cells][species], m^-2
-    std::vector<double> centres;    ///< [cells][species]: centre of mass along the cell, 0..1
+    std::vector<double> bounds;    ///< [cells + 1], m, from 0 to the ground or to space
+    std::vector<double> altitudes; ///< [cells + 1], m, there
+    std::vector<double> columns;   ///< [cells][species], m^-2
+    std::vector<double> centres;   ///< [cells][species]: centre of mass along the cell, 0..1
 };
 
 /// Follows rays through a profile. Keeps scratch memory: one tracer a thread.
@@ -74,10 +74,10 @@ private:
     const Profile& profile_;
     const Optics& optics_;
     CellLimits limits_;
-    std::vector<double> bounds_;   // [cells + 1], distances
-    std::vector<double> columns_;  // [cells][species]
-    std::vector<double> centres_;  // [cells][species], centre of mass along the cell, 0..1
-    std::vector<double> altitudes_; // [cells + 1]
+    std::vector<double> bounds_;                        // [cells + 1], distances
+    std::vector<double> columns_;                       // [cells][species]
+    std::vector<double> centres_;                       // [cells][species], centre of mass along the cell, 0..1
+    std::vector<double> altitudes_;                     // [cells + 1]
     std::vector<double> maxExtinction_, minExtinction_; // [species]
 };
 

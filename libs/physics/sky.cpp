@@ -12,8 +12,7 @@ SkyEvaluator::SkyEvaluator(const Medium& medium, const Profile& profile, const O
 {
 }
 
-void SkyEvaluator::singleAlong(const RayNodes& ray, const double muSun, const double nu, const bool exactPhase,
-                               double* const result) const
+void SkyEvaluator::singleAlong(const RayNodes& ray, const double muSun, const double nu, const bool exactPhase, double* const result) const
 {
     const int wavelengths = optics_.wavelengths, scatterers = static_cast<int>(optics_.scatterers.size());
     std::vector<double> lit(scatterers * wavelengths, 0.), transmittance(wavelengths), phase(wavelengths);
@@ -76,8 +75,8 @@ void SkyEvaluator::multipleAlong(const RayNodes& ray, const Moments& moments, co
     }
 }
 
-void SkyEvaluator::radiance(RayTracer& tracer, const Moments* const moments, const double altitude, const double mu,
-                            const double muSun, const double nu, const Parts& parts, double* const result) const
+void SkyEvaluator::radiance(RayTracer& tracer, const Moments* const moments, const double altitude, const double mu, const double muSun,
+                            const double nu, const Parts& parts, double* const result) const
 {
     std::fill(result, result + optics_.wavelengths, 0.);
     const bool ground = hitsGround(profile_.planet(), altitude, mu);

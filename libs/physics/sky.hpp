@@ -23,8 +23,8 @@ public:
     ///   moments   of the field that is scattered on; may be null where only single scattering is asked for
     ///   nu        cosine of the angle between view and Sun
     ///   result    [wavelength], sr^-1, single plus multiple as asked
-    void radiance(RayTracer& tracer, const Moments* moments, double altitude, double mu, double muSun, double nu,
-                  const Parts& parts, double* result) const;
+    void radiance(RayTracer& tracer, const Moments* moments, double altitude, double mu, double muSun, double nu, const Parts& parts,
+                  double* result) const;
 
     const SunTable& sun() const { return sun_; }
 

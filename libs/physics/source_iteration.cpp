@@ -27,9 +27,8 @@ void toLogRatios(Moments& m)
 
 } // namespace
 
-Moments iterateSource(const Medium& medium, const Profile& profile, const Optics& optics, const SunTable& sun,
-                      const MomentGrid& grid, const MomentSettings& settings, const int orders, const int sunChords,
-                      const int threadCount)
+Moments iterateSource(const Medium& medium, const Profile& profile, const Optics& optics, const SunTable& sun, const MomentGrid& grid,
+                      const MomentSettings& settings, const int orders, const int sunChords, const int threadCount)
 {
     const int wavelengths = optics.wavelengths, count = harmonicCount(settings.degree);
     const SkyEvaluator sky(medium, profile, optics, sun);
@@ -56,7 +55,8 @@ Moments iterateSource(const Medium& medium, const Profile& profile, const Optics
 
     for (int order = 1; order <= orders; ++order) {
         Moments current = empty;
-        const int azimuthal = order == 1 ? settings.degree : azimuthalDegree(optics, order, settings.negligibleOrder(), settings.leastAzimuthal);
+        const int azimuthal =
+            order == 1 ? settings.degree : azimuthalDegree(optics, order, settings.negligibleOrder(), settings.leastAzimuthal);
         const int azimuths = order == 1 ? settings.azimuths : settings.azimuthsFor(azimuthal);
         for (int l = azimuthal + 1; l <= settings.degree; ++l)
             for (int m = azimuthal + 1; m <= l; ++m)

@@ -10,8 +10,7 @@ namespace sky::physics {
 ///   orders     number of events the field may have had, >= 1 (one less than the order of the light that is to be seen)
 ///   sunChords  2: the twin of the GPU's sweeps, step by step (solver::sweepRefinement); 0: cubics between the grid's Suns
 ///   returns    the moments summed over events 1..orders
-Moments iterateSource(const Medium& medium, const Profile& profile, const Optics& optics, const SunTable& sun,
-                      const MomentGrid& grid, const MomentSettings& settings, int orders, int sunChords = 0,
-                      int threads = 2);
+Moments iterateSource(const Medium& medium, const Profile& profile, const Optics& optics, const SunTable& sun, const MomentGrid& grid,
+                      const MomentSettings& settings, int orders, int sunChords = 0, int threads = 2);
 
 } // namespace sky::physics

@@ -20,10 +20,7 @@ double intoDarkness(double x, double lit, double next)
 
 /// An outer neighbour as it enters the curve between `near` and `far`: one that lies decades deeper than these differ would make
 /// the cubic swing up on the other side.
-double limited(double outer, double near, double far)
-{
-    return std::max(outer, near - 2 - 3 * std::abs(far - near));
-}
+double limited(double outer, double near, double far) { return std::max(outer, near - 2 - 3 * std::abs(far - near)); }
 
 } // namespace
 

@@ -124,7 +124,8 @@ SunTable::SunTable(const Profile& profile, const Optics& optics, const double su
 SunTable::Row SunTable::row(const double altitude) const
 {
     const size_t k = std::clamp<size_t>(std::upper_bound(altitudes_.begin(), altitudes_.end(), altitude) - altitudes_.begin(), 1,
-                                        altitudes_.size() - 1) - 1;
+                                        altitudes_.size() - 1) -
+                     1;
     const double measure = horizonDistance(planet_, altitude);
     return {static_cast<int>(k), std::clamp((measure - measures_[k]) / (measures_[k + 1] - measures_[k]), 0., 1.)};
 }
@@ -174,8 +175,8 @@ void SunTable::horizontalIrradiance(const double altitude, const double muSun, d
         result[w] *= cosine;
 }
 
-void sunOnSurface(const Profile& profile, const Optics& optics, const double sunAngularRadius, const double altitude, const double elevation,
-                  double* const result)
+void sunOnSurface(const Profile& profile, const Optics& optics, const double sunAngularRadius, const double altitude,
+                  const double elevation, double* const result)
 {
     std::fill(result, result + optics.wavelengths, 0.);
     // Near the horizon light grows from limb to limb by powers of ten, smoothly; higher up it is linear over the disc.

@@ -58,18 +58,14 @@ std::vector<double> sunElevationNodes(const Planet& planet, const double altitud
     return nodes;
 }
 
-double sunElevationPosition(const Planet& planet, const double altitude, const double vDark, const int count,
-                            const double elevation)
+double sunElevationPosition(const Planet& planet, const double altitude, const double vDark, const int count, const double elevation)
 {
     const double horizon = horizonElevation(planet, altitude), range = pi / 2 - horizon;
     const double v = std::asinh((elevation - horizon) / range * std::sinh(sunTableScale)) / sunTableScale;
     return (v - vDark) / (1 - vDark) * (count - 1);
 }
 
-double sunTableDarkEnd(const double depth)
-{
-    return std::asinh(-depth / (pi / 2) * std::sinh(sunTableScale)) / sunTableScale;
-}
+double sunTableDarkEnd(const double depth) { return std::asinh(-depth / (pi / 2) * std::sinh(sunTableScale)) / sunTableScale; }
 
 std::vector<double> azimuthNodes(const int count)
 {

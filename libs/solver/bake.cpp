@@ -39,8 +39,7 @@ std::vector<RayStart> viewsFrom(const BakeJob& job, double altitude, int first, 
 struct Layer {
     int views, suns, azimuths, viewsAtOnce;
     Layer(const BakeJob& job, std::size_t bytesPerTexel)
-        : views(job.size.viewZenithAngle), suns(job.size.sunZenithAngle),
-          azimuths(job.size.dotViewSun), viewsAtOnce(views)
+        : views(job.size.viewZenithAngle), suns(job.size.sunZenithAngle), azimuths(job.size.dotViewSun), viewsAtOnce(views)
     {
         // A quarter of what the fixed needs leave: results exist on the GPU, in its copy, in the layer they go to, and while that is written.
         if (const std::size_t most = job.options.maxMemoryBytes)
@@ -62,8 +61,7 @@ struct Layer {
 SunSamples samplesOf(const gl::Api& api, const BakeJob& job, double altitude)
 {
     std::vector<float> suns, azimuths;
-    for (const double e : physics::sunElevationNodes(job.scene.profile.planet(), altitude, job.vDark,
-                                                     job.size.sunZenithAngle))
+    for (const double e : physics::sunElevationNodes(job.scene.profile.planet(), altitude, job.vDark, job.size.sunZenithAngle))
         suns.push_back(static_cast<float>(std::sin(e)));
     for (const double phi : physics::azimuthNodes(job.size.dotViewSun))
         azimuths.push_back(static_cast<float>(std::cos(phi)));
@@ -77,13 +75,11 @@ std::vector<float> spectra(const BakeJob& job, const float* values, std::size_t 
     std::vector<float> result(texels * wavelengths);
     for (std::size_t t = 0; t < texels; ++t)
         for (int w = 0; w < wavelengths; ++w)
-            result[t * wavelengths + w] =
-                values[t * stride + w] * static_cast<float>(job.scene.medium.solarIrradiance[w]);
+            result[t * wavelengths + w] = values[t * stride + w] * static_cast<float>(job.scene.medium.solarIrradiance[w]);
     return result;
 }
 
-void writeLayer(const BakeJob& job, model::TableWriter table, int layer, bool luminance, const float* values, int suns,
-                std::size_t texels)
+void writeLayer(const BakeJob& job, model::TableWriter table, int layer, bool luminance, const float* values, int suns, std::size_t texels)
 {
     if (luminance)
         table.writeRows(layer * suns, suns, values);
@@ -112,9 +108,9 @@ model::TableSpec BakeJob::spec(const std::string& name, const std::string& quant
     for (int k = 0; k < size.viewZenithAngle; ++k) // the share of the way from nadir to horizon, then from horizon to zenith
         view.nodes.push_back(k);
     result.axes = {{"altitude", "m", altitudes(), {"horizon-distance", {}}},
-                 sunAxis(*this, size.sunZenithAngle),
-                 view,
-                 {"relativeAzimuth", "rad", physics::azimuthNodes(size.dotViewSun), {"uniform", {}}}};
+                   sunAxis(*this, size.sunZenithAngle),
+                   view,
+                   {"relativeAzimuth", "rad", physics::azimuthNodes(size.dotViewSun), {"uniform", {}}}};
     result.rowAxes = 2;
     result.channels = luminance ? model::Channels::Luminance : model::Channels::SpectralRadiance;
     if (!luminance)
@@ -136,8 +132,7 @@ std::vector<double> BakeJob::altitudes() const
     return all;
 }
 
-void bakeSingleScattering(const gl::Api& api, const BakeJob& job, model::ModelWriter& writer,
-                          const std::function<void(double)>& breath)
+void bakeSingleScattering(const gl::Api& api, const BakeJob& job, model::ModelWriter& writer, const std::function<void(double)>& breath)
 {
     const auto& optics = job.scene.optics;
     const int scatterers = job.scene.scatterers();
@@ -155,11 +150,13 @@ void bakeSingleScattering(const gl::Api& api, const BakeJob& job, model::ModelWr
         const bool achromatic = scatterer.phaseFunctionType == atmo::PhaseFunctionType::Achromatic;
         withPhase.push_back(smooth);
         const bool luminance = !job.options.radiance && (smooth || achromatic);
-        ways.push_back(!luminance ? Way::spectra : smooth && !job.scene.medium.species[s].achromatic ? Way::luminanceOfSpectra : Way::luminance);
-        tables.push_back(writer.table(job.spec("single-scattering/" + scatterer.name,
-                                              smooth ? "single scattering, phase function included"
-                                                            : "single scattering, to be multiplied by the phase function",
-                                              luminance)));
+        ways.push_back(!luminance                                          ? Way::spectra
+                       : smooth && !job.scene.medium.species[s].achromatic ? Way::luminanceOfSpectra
+                                                                           : Way::luminance);
+        tables.push_back(writer.table(
+            job.spec("single-scattering/" + scatterer.name,
+                     smooth ? "single scattering, phase function included" : "single scattering, to be multiplied by the phase function",
+                     luminance)));
     }
     const auto any = [&](Way way) { return std::find(ways.begin(), ways.end(), way) != ways.end(); };
     std::optional<LitGather> luminance;
@@ -182,7 +179,8 @@ void bakeSingleScattering(const gl::Api& api, const BakeJob& job, model::ModelWr
         const SunSamples samples = samplesOf(api, job, altitudes[layer]);
         for (int first = 0; first < shape.views; first += shape.viewsAtOnce) {
             const int count = std::min(shape.viewsAtOnce, shape.views - first);
-            const DirectRayData rays(job.scene, viewsFrom(job, altitudes[layer], first, count), job.settings.directNodesFor(job.size.sunZenithAngle), false);
+            const DirectRayData rays(job.scene, viewsFrom(job, altitudes[layer], first, count),
+                                     job.settings.directNodesFor(job.size.sunZenithAngle), false);
             const auto place = [&](Way way) {
                 const auto values = results.download();
                 const std::size_t floats = way == Way::spectra ? std::size_t(job.scene.sets()) * 4 : 4;
@@ -208,7 +206,8 @@ void bakeSingleScattering(const gl::Api& api, const BakeJob& job, model::ModelWr
         }
         writing.start([&, layer, done = std::exchange(layers, std::vector<std::vector<float>>(scatterers))] {
             for (int i = 0; i < scatterers; ++i)
-                writeLayer(job, tables[i], static_cast<int>(layer), ways[i] != Way::spectra, done[i].data(), shape.suns, shape.texels(shape.views));
+                writeLayer(job, tables[i], static_cast<int>(layer), ways[i] != Way::spectra, done[i].data(), shape.suns,
+                           shape.texels(shape.views));
         });
     }
     writing.finish();
@@ -234,8 +233,7 @@ void gatherMultipleScattering(const gl::Api& api, const BakeJob& job, const phys
                               const std::function<void(double)>& breath,
                               const std::function<void(int layer, std::vector<float> texels)>& use)
 {
-    ScatteredGather gather(api, job.scene, false,
-                           luminance ? luminanceOf(job.scene.medium) : std::vector<std::array<double, 4>>{});
+    ScatteredGather gather(api, job.scene, false, luminance ? luminanceOf(job.scene.medium) : std::vector<std::array<double, 4>>{});
     const FoldField fine(field, job.settings.refinement);
     const auto altitudes = job.altitudes();
     const std::size_t floats = luminance ? 4 : std::size_t(job.scene.sets()) * 4;
@@ -307,9 +305,7 @@ void bakeIrradiance(const BakeJob& job, const RadiationField* field, bool perEve
     spec.channels = model::Channels::SpectralDimensionless;
     spec.wavelengthsNm = medium.wavelengthsNm;
     spec.axes = {{"altitude", "m", altitudes, {"horizon-distance", {}}}, sunAxis(job, size.zenithAngle)};
-    const auto suns = [&](double altitude) {
-        return physics::sunElevationNodes(planet, altitude, job.vDark, size.zenithAngle);
-    };
+    const auto suns = [&](double altitude) { return physics::sunElevationNodes(planet, altitude, job.vDark, size.zenithAngle); };
 
     std::vector<float> direct;
     std::vector<double> light(wavelengths);

@@ -23,8 +23,8 @@ struct BakeJob {
     const Options& options;
     const Scene& scene;
     BakeSettings settings;
-    double vDark; ///< dark end of the axis of the Sun: physics::sunElevationNodes
-    atmo::SizeScattering size; ///< texels
+    double vDark;                          ///< dark end of the axis of the Sun: physics::sunElevationNodes
+    atmo::SizeScattering size;             ///< texels
     std::vector<double> altitudes() const; ///< of the layers asked for
     /// A 4D table of that size: luminance, or spectral radiance after --radiance.
     model::TableSpec spec(const std::string& name, const std::string& quantity, bool luminance) const;
@@ -34,8 +34,7 @@ struct BakeJob {
 std::vector<std::array<double, 4>> luminanceOf(const physics::Medium& medium);
 
 /// Single scattering, a table per scatterer: "single-scattering/NAME".
-void bakeSingleScattering(const gl::Api& api, const BakeJob& job, model::ModelWriter& writer,
-                          const std::function<void(double)>& breath);
+void bakeSingleScattering(const gl::Api& api, const BakeJob& job, model::ModelWriter& writer, const std::function<void(double)>& breath);
 
 /// Light of the field's events scattered once more: the table `name`.
 void bakeMultipleScattering(const gl::Api& api, const BakeJob& job, const physics::Moments& field, const std::string& name,

@@ -81,7 +81,8 @@ void writeDebugTables(const gl::Api& api, const BakeJob& job, const RadiationFie
         if (options.saveScatteringDensity)
             writeScatteringDensity(job, field.perEvent[e], "scattering-density/" + order, writer);
         if (options.saveDeltaScattering)
-            bakeMultipleScattering(api, job, field.perEvent[e], "delta-scattering/" + order, writer, [&](double) { breath(double(e) / double(events)); });
+            bakeMultipleScattering(api, job, field.perEvent[e], "delta-scattering/" + order, writer,
+                                   [&](double) { breath(double(e) / double(events)); });
         if (options.saveAccumulatedScattering) {
             accumulated = e == 0 ? field.perEvent[0] : sum(accumulated, field.perEvent[e]);
             bakeMultipleScattering(api, job, accumulated, "accumulated-scattering/" + order, writer,

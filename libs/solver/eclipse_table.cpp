@@ -210,8 +210,8 @@ void bakeEclipsed(const gl::Api& api, const BakeJob& ordinary, const physics::Mo
     const int solved = solvedCount(job.size), suns = job.size.sunZenithAngle, wavelengths = job.scene.optics.wavelengths;
     const int stride = job.scene.sets() * 4, states = eclipseStates(job.description, job.options);
     const bool luminance = !job.options.radiance;
-    auto table = writer.table(job.spec(model::eclipseTable,
-                                       "scattering of orders 2 and up in a total eclipse, Sun and Moon concentric at the camera", luminance));
+    auto table = writer.table(job.spec(
+        model::eclipseTable, "scattering of orders 2 and up in a total eclipse, Sun and Moon concentric at the camera", luminance));
 
     const auto heights = physics::altitudeNodes(job.scene.profile.planet(), solved);
     const Ratios ratios(job);

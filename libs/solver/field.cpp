@@ -14,10 +14,11 @@ constexpr double pi = 3.14159265358979323846;
 constexpr double toLog2 = 1.44269504088896340736;
 
 /// One node under one Sun: `levels` are the field at the four altitudes of its stencil, [lm][stride] each.
-inline __attribute__((always_inline)) void foldSun(const float* const levels[4], const float weights[4], const float* __restrict coefficients,
-                                                   int degree, int azimuthal, int stride, float* __restrict out)
+inline __attribute__((always_inline)) void foldSun(const float* const levels[4], const float weights[4],
+                                                   const float* __restrict coefficients, int degree, int azimuthal, int stride,
+                                                   float* __restrict out)
 {
-    const float *__restrict a = levels[0], *__restrict b = levels[1], *__restrict c = levels[2], *__restrict d = levels[3];
+    const float* __restrict a = levels[0], * __restrict b = levels[1], * __restrict c = levels[2], * __restrict d = levels[3];
     for (int w = 0; w < stride; ++w) {
         out[w] = weights[0] * a[w] + weights[1] * b[w] + weights[2] * c[w] + weights[3] * d[w];
         out[stride + w] = coefficients[w];
@@ -69,7 +70,8 @@ void toLuminance(const float* __restrict source, const float* __restrict luminan
         Four level{};
         for (int w = 0; w < stride; ++w) {
             const float mean = base::exp2Lane(source[w]);
-            weights[w] = Four{mean, mean, mean, mean} * Four{luminance[w * 4], luminance[w * 4 + 1], luminance[w * 4 + 2], luminance[w * 4 + 3]};
+            weights[w] =
+                Four{mean, mean, mean, mean} * Four{luminance[w * 4], luminance[w * 4 + 1], luminance[w * 4 + 2], luminance[w * 4 + 3]};
             level += weights[w];
         }
         Four inverse{};
@@ -97,10 +99,10 @@ SKY_WIDEST_VECTORS
 void refine(const float* __restrict source, const std::vector<physics::Stencil>& suns, int values, float* __restrict target)
 {
     for (const auto& sun : suns) {
-        const float *__restrict a = source + sun.index[0] * values, *__restrict b = source + sun.index[1] * values;
-        const float *__restrict c = source + sun.index[2] * values, *__restrict d = source + sun.index[3] * values;
-        const auto wa = static_cast<float>(sun.weight[0]), wb = static_cast<float>(sun.weight[1]),
-                   wc = static_cast<float>(sun.weight[2]), wd = static_cast<float>(sun.weight[3]);
+        const float* __restrict a = source + sun.index[0] * values, * __restrict b = source + sun.index[1] * values;
+        const float* __restrict c = source + sun.index[2] * values, * __restrict d = source + sun.index[3] * values;
+        const auto wa = static_cast<float>(sun.weight[0]), wb = static_cast<float>(sun.weight[1]), wc = static_cast<float>(sun.weight[2]),
+                   wd = static_cast<float>(sun.weight[3]);
         for (int i = 0; i < values; ++i)
             target[i] = wa * a[i] + wb * b[i] + wc * c[i] + wd * d[i];
         target += values;
@@ -164,8 +166,8 @@ void fold(const FoldField& field, const ScatteredRays& rays, const int first, co
     const int rows = azimuthal + 2, stride = field.stride, channels = luminance.empty() ? stride : 4;
     const int values = field.suns * rows;
     base::parallel([&](int thread, int threads) {
-        std::vector<float> coefficients(std::size_t(rays.nodes) * field.harmonics * stride), spectral(std::size_t(rays.nodes + 1) * values * stride),
-            bright(luminance.empty() ? 0 : std::size_t(values) * 4);
+        std::vector<float> coefficients(std::size_t(rays.nodes) * field.harmonics * stride),
+            spectral(std::size_t(rays.nodes + 1) * values * stride), bright(luminance.empty() ? 0 : std::size_t(values) * 4);
         std::vector<Four> weights(stride);
         for (int r = thread; r < count; r += threads) {
             const std::size_t firstNode = std::size_t(first + r) * rays.nodes;

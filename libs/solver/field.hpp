@@ -7,9 +7,9 @@ namespace sky::solver {
 /// The radiation field as the fold reads it: in main memory, wavelengths padded to whole sets of four.
 struct FoldField {
     int suns = 0, harmonics = 0, stride = 0; ///< stride: padded wavelengths
-    std::array<float, 3> sunAxis{}; ///< of the axis of Suns: a, sinh a, v of the lowest (physics::MomentGrid)
-    std::vector<float> moments; ///< [altitude][sun][lm][wavelength]: log2 I_00, then I_lm / I_00
-    std::vector<float> ground;  ///< [sun][wavelength]: log2 of the diffuse irradiance of the ground
+    std::array<float, 3> sunAxis{};          ///< of the axis of Suns: a, sinh a, v of the lowest (physics::MomentGrid)
+    std::vector<float> moments;              ///< [altitude][sun][lm][wavelength]: log2 I_00, then I_lm / I_00
+    std::vector<float> ground;               ///< [sun][wavelength]: log2 of the diffuse irradiance of the ground
     /// Where fine Suns stand among those of the grid: on a folded ray's axis of Suns the gather may interpolate linearly.
     std::vector<physics::Stencil> fineSuns;
 
@@ -28,7 +28,7 @@ struct FoldField {
 ///   luminance  [padded wavelength][X, Y, Z, scotopic] of unit radiance; empty: spectral
 ///   source     [ray][node + ground][fine sun][1 + term][wavelength, or component of luminance], rays first .. first + count - 1;
 ///              term 0 is log2 of the mean, the others are relative to it
-void fold(const FoldField& field, const ScatteredRays& rays, int first, int count, int azimuthal, const std::vector<std::array<float, 4>>& luminance,
-          float* source);
+void fold(const FoldField& field, const ScatteredRays& rays, int first, int count, int azimuthal,
+          const std::vector<std::array<float, 4>>& luminance, float* source);
 
 } // namespace sky::solver

@@ -1,6 +1,6 @@
 #include "solver/gather.hpp"
-#include "solver/dispatch.hpp"
 #include "sky_shaders.hpp"
+#include "solver/dispatch.hpp"
 #include <algorithm>
 
 namespace sky::solver {
@@ -35,9 +35,9 @@ std::vector<float> phaseTexels(const Scene& scene, bool field)
         const int s = scene.optics.scatterers[i];
         for (std::size_t row = 0; row < rows; ++row)
             for (int w = 0; w < wavelengths; ++w)
-                values[(i * rows + row) * sets * 4 + w] = static_cast<float>(
-                    field ? (2. * double(row) + 1) / (4 * pi) * scene.optics.moment(s, static_cast<int>(row), w)
-                          : scene.medium.species[s].phaseFunction[row * wavelengths + w]);
+                values[(i * rows + row) * sets * 4 + w] =
+                    static_cast<float>(field ? (2. * double(row) + 1) / (4 * pi) * scene.optics.moment(s, static_cast<int>(row), w)
+                                             : scene.medium.species[s].phaseFunction[row * wavelengths + w]);
     }
     return values;
 }
@@ -91,17 +91,17 @@ SunSamples::SunSamples(const gl::Api& api, const std::vector<float>& sunValues, 
 {
 }
 
-DirectGather::DirectGather(const gl::Api& api, const Scene& scene, Purpose purpose,
-                           const std::vector<std::array<double, 4>>& luminance)
+DirectGather::DirectGather(const gl::Api& api, const Scene& scene, Purpose purpose, const std::vector<std::array<double, 4>>& luminance)
     : api_(api), scene_(scene),
-      program_(gl::ProgramBuilder(api, shaders::source)
-                   .compute("direct gather", "solve/direct.comp", directDefines(scene, purpose, luminance))),
-      luminance_(luminance), sunDepths_(api, "sunlight optical depths", sunDepthTexels(scene)), phases_(api, "phase functions", phaseTexels(scene, purpose != Purpose::table))
+      program_(
+          gl::ProgramBuilder(api, shaders::source).compute("direct gather", "solve/direct.comp", directDefines(scene, purpose, luminance))),
+      luminance_(luminance), sunDepths_(api, "sunlight optical depths", sunDepthTexels(scene)),
+      phases_(api, "phase functions", phaseTexels(scene, purpose != Purpose::table))
 {
 }
 
-void DirectGather::gather(const DirectRays& rays, const SunSamples& samples, Strides strides,
-                          const std::vector<bool>& withPhase, gl::Buffer& results, const Breath& breath)
+void DirectGather::gather(const DirectRays& rays, const SunSamples& samples, Strides strides, const std::vector<bool>& withPhase,
+                          gl::Buffer& results, const Breath& breath)
 {
     bindSamples(program_, samples, strides, rays.nodes);
     bind(program_, "rayNodes", 2, rays.rayNodes);
@@ -134,8 +134,7 @@ ScatteredGather::ScatteredGather(const gl::Api& api, const Scene& scene, bool fr
     : api_(api), scene_(scene), sets_(luminance.empty() ? scene.sets() : 1), setsTogether_(std::min(mostSets, sets_)),
       program_(gl::ProgramBuilder(api, shaders::source)
                    .compute("scattered gather", "solve/scattered.comp",
-                            {{"SETS", std::to_string(setsTogether_)},
-                             {"FROM_GROUND", fromGround ? "1" : "0"}})),
+                            {{"SETS", std::to_string(setsTogether_)}, {"FROM_GROUND", fromGround ? "1" : "0"}})),
       luminance_(luminanceTexels(scene, luminance))
 {
 }
@@ -162,7 +161,8 @@ void ScatteredGather::gather(const ScatteredRays& rays, const FoldField& field, 
     for (int first = 0; first < rays.count; first += chunk) {
         breath();
         const int count = std::min(chunk, rays.count - first);
-        source_->buffer.rewrite(count * perRay * 16, [&](void* to) { fold(field, rays, first, count, azimuthal, luminance_, static_cast<float*>(to)); });
+        source_->buffer.rewrite(count * perRay * 16,
+                                [&](void* to) { fold(field, rays, first, count, azimuthal, luminance_, static_cast<float*>(to)); });
         program_.set("firstRay", first);
         program_.set("totalSets", sets_);
         for (int set = 0; set < sets_; set += setsTogether_) {

@@ -44,8 +44,8 @@ public:
     /// Fills `results`. For each scatterer (in the order of Optics::scatterers; one result in all for a field) a block of
     /// rays x suns x azimuths texels; a texel is one vec4 of luminance or sets() vec4s of radiance per unit solar irradiance.
     ///   withPhase  [scatterer] multiply by the exact phase function
-    void gather(const DirectRays& rays, const SunSamples& samples, Strides strides, const std::vector<bool>& withPhase,
-                gl::Buffer& results, const Breath& breath);
+    void gather(const DirectRays& rays, const SunSamples& samples, Strides strides, const std::vector<bool>& withPhase, gl::Buffer& results,
+                const Breath& breath);
 
 private:
     gl::Api api_;

@@ -22,8 +22,7 @@ public:
     Sweeps(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid, const physics::MomentSettings& settings)
         : api_(api), scene_(scene), grid_(grid), settings_(settings), starts_(makeStarts()),
           samples_(api, sunCosines(), azimuthCosines(settings.azimuths)),
-          results_(api, "sweep radiance",
-                   starts_.size() * samples_.suns * samples_.azimuths * scene.sets() * 4 * sizeof(float))
+          results_(api, "sweep radiance", starts_.size() * samples_.suns * samples_.azimuths * scene.sets() * 4 * sizeof(float))
     {
     }
 
@@ -134,18 +133,18 @@ private:
                             }
                         if (set.mu[d] > 0)
                             for (int w = 0; w < wavelengths; ++w)
-                                sums.irradiance[(std::size_t(a) * suns + j) * wavelengths + w] +=
-                                    set.weight[d] * set.mu[d] * byAzimuth[w];
+                                sums.irradiance[(std::size_t(a) * suns + j) * wavelengths + w] += set.weight[d] * set.mu[d] * byAzimuth[w];
                     }
                 }
             }
         });
         for (std::size_t i = 0; i < sums.moments.size(); ++i)
             if (!std::isfinite(sums.moments[i]))
-                throw NumericsError("moments: the value at altitude level " + std::to_string(i / (std::size_t(suns) * count * wavelengths)) +
-                                    ", Sun " + std::to_string(i / (std::size_t(count) * wavelengths) % suns) +
-                                    ", harmonic " + std::to_string(i / wavelengths % count) + ", wavelength " +
-                                    std::to_string(i % wavelengths) + " is not finite. This is an error of calcmysky or of the "
+                throw NumericsError("moments: the value at altitude level " +
+                                    std::to_string(i / (std::size_t(suns) * count * wavelengths)) + ", Sun " +
+                                    std::to_string(i / (std::size_t(count) * wavelengths) % suns) + ", harmonic " +
+                                    std::to_string(i / wavelengths % count) + ", wavelength " + std::to_string(i % wavelengths) +
+                                    " is not finite. This is an error of calcmysky or of the "
                                     "OpenGL driver; try another one with --device or --gl.");
         return sums;
     }
@@ -165,9 +164,8 @@ private:
 
 } // namespace
 
-RadiationField iterate(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid,
-                       const physics::MomentSettings& settings, const OrderLimit& limit, bool keepEvents,
-                       const std::function<void(double)>& breath)
+RadiationField iterate(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid, const physics::MomentSettings& settings,
+                       const OrderLimit& limit, bool keepEvents, const std::function<void(double)>& breath)
 {
     const int wanted = limit.all ? mostEvents : limit.orders - 1;
     const int harmonics = harmonicCount(settings.degree), wavelengths = scene.optics.wavelengths;

@@ -10,27 +10,26 @@ constexpr int sweepRefinement = 2;
 
 /// When the iteration ends.
 struct OrderLimit {
-    int orders = 4;          ///< of the light that is to be seen: the field needs one event less
-    bool all = false;        ///< go on until the last event changes the whole series, closed, by less than `tolerance`
-    double tolerance = 0;    ///< relative, rms; 0: exactly `orders`, or where all are wanted what the settings say
+    int orders = 4;       ///< of the light that is to be seen: the field needs one event less
+    bool all = false;     ///< go on until the last event changes the whole series, closed, by less than `tolerance`
+    double tolerance = 0; ///< relative, rms; 0: exactly `orders`, or where all are wanted what the settings say
 };
 
 /// The converged radiation field and what it cost.
 struct RadiationField {
-    physics::Moments total;           ///< events 1 .. eventCount
-    std::vector<physics::Moments> perEvent; ///< kept on request, as total
-    physics::Moments firstFromGround;       ///< likewise: the part of event 1 that is reflection by the ground
+    physics::Moments total;                      ///< events 1 .. eventCount
+    std::vector<physics::Moments> perEvent;      ///< kept on request, as total
+    physics::Moments firstFromGround;            ///< likewise: the part of event 1 that is reflection by the ground
     std::vector<std::vector<double>> irradiance; ///< [event - 1]: [altitude][sun][wavelength], downward, unit solar irradiance
     int eventCount = 0;
-    double remainder = 0;             ///< rms of the relative change by the last event, where a tolerance decided
+    double remainder = 0; ///< rms of the relative change by the last event, where a tolerance decided
 };
 
 /// Source iteration for the radiance moments (docs/method): each sweep gathers, for every level, Sun and direction, the light
 /// that the last event's field scatters or reflects into that ray, and projects it onto the harmonics.
 ///   breath  called between dispatches with the fraction of the sweeps done so far
 ///   throws  NumericsError where a value is not finite
-RadiationField iterate(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid,
-                       const physics::MomentSettings& settings, const OrderLimit& limit, bool keepEvents,
-                       const std::function<void(double)>& breath);
+RadiationField iterate(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid, const physics::MomentSettings& settings,
+                       const OrderLimit& limit, bool keepEvents, const std::function<void(double)>& breath);
 
 } // namespace sky::solver

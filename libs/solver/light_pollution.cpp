@@ -112,7 +112,8 @@ void bakeLightPollution(const atmo::Description& description, const Options& opt
     table(model::lightPollutionTable, "light of a ground that glows evenly, and what is scattered of it",
           [light = lightOf(field.total)](const physics::RayCells& ray, double* result) { light.seen(ray, result); });
     for (std::size_t order = 0; !field.perEvent.empty() && order <= field.perEvent.size(); ++order) // the field is scattered once more
-        table(std::string(model::lightPollutionTable) + "/order-" + std::to_string(order), "light pollution of order " + std::to_string(order),
+        table(std::string(model::lightPollutionTable) + "/order-" + std::to_string(order),
+              "light pollution of order " + std::to_string(order),
               [order, light = lightOf(field.perEvent[order > 0 ? order - 1 : 0])](const physics::RayCells& ray, double* result) {
                   if (order == 0)
                       light.direct(ray, result);

@@ -25,8 +25,8 @@ struct alignas(32) Channels {
 ///   weights     [pair of scatterers][wavelength]: weight of the scatterer times luminance
 ///   lit         [elevation][scatterer][4]
 SKY_WIDEST_VECTORS
-void sumNode(const float* __restrict near, const float* __restrict far, float fraction, const Channels* __restrict weights,
-             int elevations, int wavelengths, int scatterers, float* __restrict light, float* __restrict lit)
+void sumNode(const float* __restrict near, const float* __restrict far, float fraction, const Channels* __restrict weights, int elevations,
+             int wavelengths, int scatterers, float* __restrict light, float* __restrict lit)
 {
     for (int e = 0; e < elevations; ++e, near += wavelengths, far += wavelengths, lit += scatterers * 4) {
         for (int w = 0; w < wavelengths; ++w)

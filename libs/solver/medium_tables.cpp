@@ -1,8 +1,8 @@
 #include "solver/medium_tables.hpp"
 #include "gl/buffer.hpp"
 #include "gl/program.hpp"
-#include "physics/optics.hpp"
 #include "physics/harmonics.hpp"
+#include "physics/optics.hpp"
 #include "sky_shaders.hpp"
 #include <algorithm>
 #include <cmath>
@@ -120,8 +120,7 @@ private:
 
 const atmo::CodeBlock& densityBlock(const atmo::Description& d, std::size_t species)
 {
-    return species < d.scatterers.size() ? d.scatterers[species].numberDensity
-                                         : d.absorbers[species - d.scatterers.size()].numberDensity;
+    return species < d.scatterers.size() ? d.scatterers[species].numberDensity : d.absorbers[species - d.scatterers.size()].numberDensity;
 }
 
 struct Sample {
@@ -156,9 +155,8 @@ std::vector<Sample> sampleDensities(const atmo::Description& description, Evalua
                 if (!std::isfinite(n) || n < 0) {
                     const auto& block = densityBlock(description, s);
                     throw AtmoError({block.file, block.firstLine, 0},
-                                    "this number density is " + brief(double(n)) + " at an altitude of " +
-                                        brief(double(fresh[i])) + " m; it must be finite and not negative everywhere from 0 to " +
-                                        brief(top) + " m");
+                                    "this number density is " + brief(double(n)) + " at an altitude of " + brief(double(fresh[i])) +
+                                        " m; it must be finite and not negative everywhere from 0 to " + brief(top) + " m");
                 }
                 sample.densities[s] = n;
                 greatest[s] = std::max(greatest[s], double(n));
@@ -174,7 +172,7 @@ std::vector<Sample> sampleDensities(const atmo::Description& description, Evalua
         std::vector<float> next;
         const auto split = [&](float a, float b) {
             const float middle = 0.5F * (a + b);
-            if (middle > a && middle < b && double(b) - double(a) > 1e-7 * top)
+            if (middle > a && middle<b&& double(b) - double(a)> 1e-7 * top)
                 next.push_back(middle);
         };
         const auto isFresh = [&](float h) { return std::binary_search(fresh.begin(), fresh.end(), h); };
@@ -232,8 +230,7 @@ void addPhaseFunctions(const atmo::Description& description, Evaluator& evaluato
                         throw AtmoError({block.file, block.firstLine, 0},
                                         "this phase function is " + brief(double(p)) + " at a scattering angle of " +
                                             brief(medium.scatteringAngles[k] * 180 / pi) + " degrees and " +
-                                            brief(medium.wavelengthsNm[first + c]) +
-                                            " nm; it must be finite and not negative");
+                                            brief(medium.wavelengthsNm[first + c]) + " nm; it must be finite and not negative");
                     }
                     medium.species[s].phaseFunction[k * wavelengths + first + c] = double(p);
                 }
@@ -301,8 +298,7 @@ physics::Medium evaluateMedium(const atmo::Description& description, const gl::A
         species.name = scatterer.name;
         species.smooth = scatterer.phaseFunctionType == atmo::PhaseFunctionType::Smooth;
         for (const double lambda : medium.wavelengthsNm)
-            species.extinctionCrossSection.push_back(scatterer.crossSectionAt1um *
-                                                     std::pow(lambda / 1000, -scatterer.angstromExponent));
+            species.extinctionCrossSection.push_back(scatterer.crossSectionAt1um * std::pow(lambda / 1000, -scatterer.angstromExponent));
         species.singleScatteringAlbedo = scatterer.singleScatteringAlbedo;
         medium.species.push_back(std::move(species));
     }

@@ -68,7 +68,9 @@ Needs needsOf(const atmo::Description& d, const Options& options)
                                             : "the ground gives no visible light");
     const auto moonless = noEclipse(d);
     decide(n.eclipsed, Part::Eclipsed, scatters && lit && several && !moonless,
-           !scatters || !lit ? dark : !several ? "only one order of scattering was asked for" : moonless.value_or(""));
+           !scatters || !lit ? dark
+           : !several        ? "only one order of scattering was asked for"
+                             : moonless.value_or(""));
     n.everyEvent = scatters && lit && several &&
                    (options.saveScatteringDensity || options.saveScatteringDensity2FromGround || options.saveDeltaScattering ||
                     options.saveAccumulatedScattering);
@@ -97,8 +99,8 @@ Work workOf(const atmo::Description& d, const Options& options, const Needs& nee
     if (needs.eclipsed)
         w.eclipsed = eclipseStates(d, options) * eclipseSeconds * std::ceil(d.wavelengths.count / 8.) * (1 + events) / 4 * quality;
     if (needs.lightPollution)
-        w.lightPollution = (0.08 + 5e-6 * d.lightPollutionSize.altitude * d.lightPollutionSize.zenithAngle) * sets *
-                           (options.saveLightPollution ? 8 : 1);
+        w.lightPollution =
+            (0.08 + 5e-6 * d.lightPollutionSize.altitude * d.lightPollutionSize.zenithAngle) * sets * (options.saveLightPollution ? 8 : 1);
     if (needs.everyEvent)
         w.debugging = events * (options.saveDeltaScattering + options.saveAccumulatedScattering) * points * 14 * quality / scatteredVisits;
     w.writing = 0.05;
@@ -117,11 +119,15 @@ std::vector<PlanItem> plan(const atmo::Description& d, const Options& options)
     std::vector<PlanItem> items;
     items.push_back({"medium", true, "densities and phase functions as tables", memory(4e6), size(3e5), work.medium + work.sunlight});
     if (needs.field)
-        items.push_back({"moments", true, qualityOf(options), memory(5e6 * sets + 4 * 16 * sets * sweepSize(options.quality)), size(needs.moments ? 1.2e5 * sets : 0), work.moments});
+        items.push_back({"moments", true, qualityOf(options), memory(5e6 * sets + 4 * 16 * sets * sweepSize(options.quality)),
+                         size(needs.moments ? 1.2e5 * sets : 0), work.moments});
     if (needs.transmittance)
-        items.push_back({"transmittance", true, "", memory(1e6), size(d.transmittanceSize.altitude * d.transmittanceSize.zenithAngle * sets * 16 * compressed), work.transmittance});
+        items.push_back({"transmittance", true, "", memory(1e6),
+                         size(d.transmittanceSize.altitude * d.transmittanceSize.zenithAngle * sets * 16 * compressed),
+                         work.transmittance});
     if (needs.irradiance)
-        items.push_back({"irradiance", true, "", memory(1e6), size(2. * d.irradianceSize.altitude * d.irradianceSize.zenithAngle * sets * 16 * compressed), work.irradiance});
+        items.push_back({"irradiance", true, "", memory(1e6),
+                         size(2. * d.irradianceSize.altitude * d.irradianceSize.zenithAngle * sets * 16 * compressed), work.irradiance});
     if (needs.single)
         for (const auto& s : d.scatterers) {
             if (!scattersLight(s)) {
@@ -129,8 +135,8 @@ std::vector<PlanItem> plan(const atmo::Description& d, const Options& options)
                 continue;
             }
             const bool luminance = !options.radiance && s.phaseFunctionType != atmo::PhaseFunctionType::General;
-            items.push_back({"single-scattering/" + s.name, true,
-                             luminance ? "as XYZ and scotopic luminance" : "as spectral radiance", memory(20e6 + 5 * layer * double(d.scatterers.size()) * (luminance ? 1 : sets)),
+            items.push_back({"single-scattering/" + s.name, true, luminance ? "as XYZ and scotopic luminance" : "as spectral radiance",
+                             memory(20e6 + 5 * layer * double(d.scatterers.size()) * (luminance ? 1 : sets)),
                              size(points * bytes * compressed * (luminance ? 4 : d.wavelengths.count)),
                              work.single / double(d.scatterers.size())});
         }
@@ -144,16 +150,16 @@ std::vector<PlanItem> plan(const atmo::Description& d, const Options& options)
         const double layers = points / std::max(1., double(d.scatteringSize.viewZenithAngle) * d.scatteringSize.dotViewSun *
                                                         d.scatteringSize.sunZenithAngle * sets);
         items.push_back({"eclipsed-double-scattering", true,
-                         options.radiance ? "as spectral radiance, all orders from the second" : "as XYZ and scotopic luminance, all orders from the second",
+                         options.radiance ? "as spectral radiance, all orders from the second"
+                                          : "as XYZ and scotopic luminance, all orders from the second",
                          memory(80e6 + texels * d.wavelengths.count * 6 * 4),
                          size(texels * layers * bytes * compressed * (options.radiance ? d.wavelengths.count : 4)), work.eclipsed});
     }
     if (needs.lightPollution) {
         const double texels = double(d.lightPollutionSize.altitude) * d.lightPollutionSize.zenithAngle;
-        items.push_back({"light-pollution", true,
-                         options.radiance ? "as spectral radiance, all orders" : "as XYZ and scotopic luminance, all orders",
-                         memory(2e6 + 1e6 * sets), size(texels * 4 * compressed * (options.radiance ? d.wavelengths.count : 4)),
-                         work.lightPollution});
+        items.push_back(
+            {"light-pollution", true, options.radiance ? "as spectral radiance, all orders" : "as XYZ and scotopic luminance, all orders",
+             memory(2e6 + 1e6 * sets), size(texels * 4 * compressed * (options.radiance ? d.wavelengths.count : 4)), work.lightPollution});
     }
     for (const auto& s : needs.skipped)
         items.push_back({s.what, false, s.why, 0, 0, 0});

@@ -21,8 +21,8 @@ struct Work {
            lightPollution = 0, debugging = 0, writing = 0;
     double total() const
     {
-        return medium + sunlight + moments + transmittance + irradiance + single + multiple + eclipsed + lightPollution +
-               debugging + writing;
+        return medium + sunlight + moments + transmittance + irradiance + single + multiple + eclipsed + lightPollution + debugging +
+               writing;
     }
 };
 Work workOf(const atmo::Description& description, const Options& options, const Needs& needs);

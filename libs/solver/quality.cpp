@@ -28,12 +28,36 @@ const std::vector<Point>& points()
 {
     using enum Air;
     static const std::vector<Point> list{
-        {"draft", 0.5, {12, 24, 3, 4, 3, 6, 4, 48, 8, true, 5e-3, 4}, {20, 8, 2}, {{Clear, 0.010}, {Dusty, 0.024}, {Dense, 0.018}, {Hazy, 0.0089}, {Cloudy, 0.023}}},
-        {"normal", 1, {14, 28, 5, 7, 4, 8, 6, 48, 10, true, 2.5e-3, 4}, {64, 10, 3}, {{Clear, 0.0056}, {Dusty, 0.0092}, {Dense, 0.0091}, {Hazy, 0.0084}, {Cloudy, 0.025}}},
-        {"good", 2.3, {18, 36, 8, 8, 5, 10, 10, 96, 14, true, 1e-3, 5}, {72, 14, 3}, {{Clear, 0.0027}, {Dusty, 0.0068}, {Dense, 0.0060}, {Hazy, 0.0056}, {Cloudy, 0.023}}},
-        {"fine", 6, {24, 48, 8, 8, 6, 12, 10, 160, 20, true, 5e-4, 6}, {80, 24, 4}, {{Clear, 0.0027}, {Dusty, 0.0067}, {Dense, 0.0024}, {Hazy, 0.0056}, {Cloudy, 0.022}}},
-        {"finer", 16, {30, 60, 10, 10, 8, 16, 12, 176, 28, true, 2e-4, 8}, {120, 32, 5}, {{Clear, 0.0026}, {Dusty, 0.0022}, {Dense, 0.0009}, {Hazy, 0.0056}, {Cloudy, 0.022}}},
-        {"reference", 60, {40, 80, 12, 12, 10, 20, 16, 192, 40, true, 1e-4, 10}, {160, 48, 6}, {{Clear, 0.0026}, {Dusty, 0.0021}, {Dense, 0.0009}, {Hazy, 0.0056}, {Cloudy, 0.022}}},
+        {"draft",
+         0.5,
+         {12, 24, 3, 4, 3, 6, 4, 48, 8, true, 5e-3, 4},
+         {20, 8, 2},
+         {{Clear, 0.010}, {Dusty, 0.024}, {Dense, 0.018}, {Hazy, 0.0089}, {Cloudy, 0.023}}},
+        {"normal",
+         1,
+         {14, 28, 5, 7, 4, 8, 6, 48, 10, true, 2.5e-3, 4},
+         {64, 10, 3},
+         {{Clear, 0.0056}, {Dusty, 0.0092}, {Dense, 0.0091}, {Hazy, 0.0084}, {Cloudy, 0.025}}},
+        {"good",
+         2.3,
+         {18, 36, 8, 8, 5, 10, 10, 96, 14, true, 1e-3, 5},
+         {72, 14, 3},
+         {{Clear, 0.0027}, {Dusty, 0.0068}, {Dense, 0.0060}, {Hazy, 0.0056}, {Cloudy, 0.023}}},
+        {"fine",
+         6,
+         {24, 48, 8, 8, 6, 12, 10, 160, 20, true, 5e-4, 6},
+         {80, 24, 4},
+         {{Clear, 0.0027}, {Dusty, 0.0067}, {Dense, 0.0024}, {Hazy, 0.0056}, {Cloudy, 0.022}}},
+        {"finer",
+         16,
+         {30, 60, 10, 10, 8, 16, 12, 176, 28, true, 2e-4, 8},
+         {120, 32, 5},
+         {{Clear, 0.0026}, {Dusty, 0.0022}, {Dense, 0.0009}, {Hazy, 0.0056}, {Cloudy, 0.022}}},
+        {"reference",
+         60,
+         {40, 80, 12, 12, 10, 20, 16, 192, 40, true, 1e-4, 10},
+         {160, 48, 6},
+         {{Clear, 0.0026}, {Dusty, 0.0021}, {Dense, 0.0009}, {Hazy, 0.0056}, {Cloudy, 0.022}}},
     };
     return list;
 }
@@ -151,7 +175,7 @@ double relativeWork(const std::string& quality) { return pointNamed(quality).wor
 
 double sweepSize(const std::string& quality)
 {
-    constexpr double moreLevels = 1.5; // which the medium asks for
+    constexpr double moreLevels = 1.5;                    // which the medium asks for
     const auto m = forPeaks(pointNamed(quality).moments); // rather too much than too little
     return moreLevels * m.altitudes * m.suns * m.azimuths * (m.groundDirections + m.limbDirections + m.skyDirections);
 }
@@ -192,9 +216,6 @@ Options settled(Options options, const physics::Medium& medium, Progress& progre
     return options;
 }
 
-double orderTolerance(const Options& options)
-{
-    return options.tolerance.value_or(0) * (options.qualityByTolerance ? 0.25 : 1);
-}
+double orderTolerance(const Options& options) { return options.tolerance.value_or(0) * (options.qualityByTolerance ? 0.25 : 1); }
 
 } // namespace sky::solver

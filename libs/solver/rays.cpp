@@ -31,8 +31,7 @@ std::vector<float> groundTexels(const Scene& scene, const std::vector<physics::R
     std::vector<float> values(rays.size() * scene.sets() * 4, 0.F);
     for (std::size_t r = 0; r < rays.size(); ++r)
         for (int w = 0; w < scene.optics.wavelengths; ++w)
-            values[r * scene.sets() * 4 + w] =
-                static_cast<float>(rays[r].groundTransmittance[w] * scene.medium.groundAlbedo[w] / pi);
+            values[r * scene.sets() * 4 + w] = static_cast<float>(rays[r].groundTransmittance[w] * scene.medium.groundAlbedo[w] / pi);
     return values;
 }
 
@@ -48,8 +47,7 @@ TexelBuffer::TexelBuffer(const gl::Api& api, const std::string& label, std::size
 {
 }
 
-std::vector<physics::RayNodes> traceRays(const Scene& scene, const std::vector<RayStart>& starts, int nodes,
-                                       physics::NodesFor nodesFor)
+std::vector<physics::RayNodes> traceRays(const Scene& scene, const std::vector<RayStart>& starts, int nodes, physics::NodesFor nodesFor)
 {
     std::vector<physics::RayNodes> rays(starts.size());
     base::parallel([&](int thread, int threads) {
@@ -77,8 +75,8 @@ DirectRayData::DirectRayData(const Scene& scene, const std::vector<RayStart>& st
             const double horizon = physics::horizonElevation(scene.profile.planet(), h);
             const auto [row, fraction] = scene.sun.row(h);
             to[4] = static_cast<float>(horizon);
-            to[5] = static_cast<float>(1 / std::asinh((pi / 2 - horizon + scene.medium.sunAngularRadius) /
-                                                      physics::SunTable::elevationScale));
+            to[5] =
+                static_cast<float>(1 / std::asinh((pi / 2 - horizon + scene.medium.sunAngularRadius) / physics::SunTable::elevationScale));
             to[6] = static_cast<float>(row);
             to[7] = static_cast<float>(fraction);
         }
@@ -93,8 +91,8 @@ DirectRayData::DirectRayData(const Scene& scene, const std::vector<RayStart>& st
 }
 
 DirectRays::DirectRays(const gl::Api& api, const DirectRayData& data)
-    : count(data.count), nodes(data.nodes), rayNodes(api, "direct ray nodes", data.rayNodes),
-      weights(api, "direct weights", data.weights), ground(api, "direct ground", data.ground)
+    : count(data.count), nodes(data.nodes), rayNodes(api, "direct ray nodes", data.rayNodes), weights(api, "direct weights", data.weights),
+      ground(api, "direct ground", data.ground)
 {
 }
 
@@ -114,8 +112,8 @@ std::vector<float> scatteredNodes(const std::vector<physics::RayNodes>& rays, in
 
 } // namespace
 
-ScatteredRays::ScatteredRays(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid,
-                             const std::vector<RayStart>& starts, int nodeCount)
+ScatteredRays::ScatteredRays(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid, const std::vector<RayStart>& starts,
+                             int nodeCount)
     : ScatteredRays(api, scene, grid, traceRays(scene, starts, nodeCount, physics::NodesFor::Field), nodeCount)
 {
 }
@@ -148,9 +146,8 @@ ScatteredRays::ScatteredRays(const gl::Api& api, const Scene& scene, const physi
                 for (int i = 0; i < scatterers; ++i)
                     for (int l = 0; l < terms; ++l)
                         for (int w = 0; w < wavelengths; ++w)
-                            coefficients[(at * terms + l) * stride + w] +=
-                                static_cast<float>(ray.weights[(k * scatterers + i) * wavelengths + w] *
-                                                   optics.moment(optics.scatterers[i], l, w));
+                            coefficients[(at * terms + l) * stride + w] += static_cast<float>(
+                                ray.weights[(k * scatterers + i) * wavelengths + w] * optics.moment(optics.scatterers[i], l, w));
             }
     });
 }

@@ -68,12 +68,11 @@ struct ScatteredRays {
     std::vector<float> coefficients; ///< [ray][node][l][padded wavelength]: sum over scatterers of weight lambda_l
     std::vector<float> factors;      ///< [ray][node][lm]: zenith-angle factor of the harmonic
     std::vector<float> ground;       ///< [ray][padded wavelength]: transmittance times albedo / pi
-    ScatteredRays(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid, const std::vector<RayStart>& starts,
-                  int nodes);
+    ScatteredRays(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid, const std::vector<RayStart>& starts, int nodes);
 
 private:
-    ScatteredRays(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid,
-                  const std::vector<physics::RayNodes>& rays, int nodes);
+    ScatteredRays(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid, const std::vector<physics::RayNodes>& rays,
+                  int nodes);
 };
 
 } // namespace sky::solver

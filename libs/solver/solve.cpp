@@ -5,13 +5,13 @@
 #include "base/error.hpp"
 #include "model/medium_tables.hpp"
 #include "model/moment_tables.hpp"
+#include "physics/table_axes.hpp"
 #include "solver/bake.hpp"
 #include "solver/debug_tables.hpp"
 #include "solver/eclipse_table.hpp"
 #include "solver/light_pollution.hpp"
 #include "solver/medium_tables.hpp"
 #include "solver/plan.hpp"
-#include "physics/table_axes.hpp"
 #include "solver/quality.hpp"
 #include <algorithm>
 #include <cmath>
@@ -93,8 +93,8 @@ model::Manifest describe(const atmo::Description& description, const Options& op
 
 } // namespace
 
-void solve(const atmo::Description& description, const Options& asked, gl::HeadlessContext& context,
-           const std::filesystem::path& outDir, Progress& progress)
+void solve(const atmo::Description& description, const Options& asked, gl::HeadlessContext& context, const std::filesystem::path& outDir,
+           Progress& progress)
 {
     const gl::Api& api = context.api();
     const Needs needs = needsOf(description, asked);
@@ -127,16 +127,14 @@ void solve(const atmo::Description& description, const Options& asked, gl::Headl
     const Scene scene{medium, profile, optics, sun};
     const physics::MomentGrid grid(profile, largestExtinctions(optics), quality.moments.altitudes, quality.moments.suns,
                                    medium.sunAngularRadius);
-    const BakeJob job{description, options, scene, quality.bake, physics::sunTableDarkEnd(grid.darkDepth()),
-                      description.scatteringSize};
+    const BakeJob job{description, options, scene, quality.bake, physics::sunTableDarkEnd(grid.darkDepth()), description.scatteringSize};
     model::describeOptics(manifest, optics, quality.moments.truncatePeaks);
 
     // 3. The radiation field: moments of every event, summed.
     RadiationField field;
     if (needs.field) {
         breath = stages.begin("moments", stages.work().moments);
-        const OrderLimit limit{std::max(2, description.scatteringOrders), description.allScatteringOrders,
-                               orderTolerance(options)};
+        const OrderLimit limit{std::max(2, description.scatteringOrders), description.allScatteringOrders, orderTolerance(options)};
         field = iterate(api, scene, grid, quality.moments, limit, needs.everyEvent, breath);
         manifest.settings["moments.events"] = std::to_string(field.eventCount);
         if (limit.all || options.tolerance)

@@ -23,7 +23,7 @@ enum class Part { Moments, Transmittance, Irradiance, Single, Multiple, LightPol
 /// All parts, in the order in which they are listed for people.
 inline const std::vector<Part>& allParts()
 {
-    static const std::vector<Part> parts{Part::Moments, Part::Transmittance, Part::Irradiance, Part::Single,
+    static const std::vector<Part> parts{Part::Moments,  Part::Transmittance,  Part::Irradiance, Part::Single,
                                          Part::Multiple, Part::LightPollution, Part::Eclipsed};
     return parts;
 }
@@ -58,7 +58,7 @@ struct Options {
     bool saveDeltaScattering = false;
     bool saveAccumulatedScattering = false;
     bool saveLightPollution = false;
-    std::size_t maxMemoryBytes = 0;                             ///< 0: no bound
+    std::size_t maxMemoryBytes = 0; ///< 0: no bound
 };
 
 /// Hears how the work goes on. Fractions are of the whole work done so far, 0..1, and never fall.
@@ -81,7 +81,7 @@ struct PlanItem {
     std::string why;             ///< why it is skipped, or why it takes this form
     std::size_t memoryBytes = 0; ///< while it is computed
     std::size_t diskBytes = 0;
-    double seconds = 0;          ///< estimate
+    double seconds = 0; ///< estimate
 };
 
 /// What solve() would do with the same arguments. Needs no OpenGL; a quality that is to be picked must be settled() before.
@@ -89,8 +89,8 @@ std::vector<PlanItem> plan(const atmo::Description& description, const Options& 
 
 /// Computes the model and puts it into `outDir` in one step at the end: whatever happens before, an old model stays whole.
 ///   throws  Cancelled, AtmoError (the GLSL blocks), GlError, NumericsError, FileError
-void solve(const atmo::Description& description, const Options& options, gl::HeadlessContext& context,
-           const std::filesystem::path& outDir, Progress& progress);
+void solve(const atmo::Description& description, const Options& options, gl::HeadlessContext& context, const std::filesystem::path& outDir,
+           Progress& progress);
 
 /// Compiles the description's GLSL blocks.
 ///   throws  AtmoError with the line of the .atmo file

@@ -17,8 +17,7 @@ public:
         constexpr float sigma = 1.5f; // pixels, as in the paper
         for (int y = 0; y < side; ++y)
             for (int x = 0; x < side; ++x) {
-                const auto dx = static_cast<float>(std::min(x, side - x)),
-                           dy = static_cast<float>(std::min(y, side - y));
+                const auto dx = static_cast<float>(std::min(x, side - x)), dy = static_cast<float>(std::min(y, side - y));
                 kernel_[index(x, y)] = std::exp(-(dx * dx + dy * dy) / (2 * sigma * sigma));
             }
     }

@@ -70,10 +70,7 @@ CityOption parseCity(std::string_view text)
 
 } // namespace
 
-City CityOption::city() const
-{
-    return {distance, azimuth * degree, radius, luminance, spectrum};
-}
+City CityOption::city() const { return {distance, azimuth * degree, radius, luminance, spectrum}; }
 
 std::vector<CityOption> parseCities(std::string_view text)
 {

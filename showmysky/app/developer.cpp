@@ -25,30 +25,20 @@ gl::Program program(const gl::Api& api, const char* label, const char* fragmentP
 }
 
 /// Half floats where the driver need not draw into or filter others.
-gl::TextureFormat format(const gl::Api& api)
-{
-    return api.isEs() ? gl::TextureFormat::rgba16f : gl::TextureFormat::rgba32f;
-}
+gl::TextureFormat format(const gl::Api& api) { return api.isEs() ? gl::TextureFormat::rgba16f : gl::TextureFormat::rgba32f; }
 
 std::array<float, 3> stepsOf(Depth depth)
 {
     switch (depth) {
-    case Depth::bits565:
-        return {31, 63, 31};
-    case Depth::bits666:
-        return {63, 63, 63};
-    case Depth::bits101010:
-        return {1023, 1023, 1023};
-    case Depth::bits888:
-        break;
+    case Depth::bits565: return {31, 63, 31};
+    case Depth::bits666: return {63, 63, 63};
+    case Depth::bits101010: return {1023, 1023, 1023};
+    case Depth::bits888: break;
     }
     return {255, 255, 255};
 }
 
-std::array<float, 2> floats(int width, int height)
-{
-    return {static_cast<float>(width), static_cast<float>(height)};
-}
+std::array<float, 2> floats(int width, int height) { return {static_cast<float>(width), static_cast<float>(height)}; }
 
 } // namespace
 
@@ -61,8 +51,7 @@ Developer::Target::Target(const gl::Api& api, const char* label, gl::TextureForm
 Developer::Developer(const gl::Api& api)
     : api_(api), triangle_(api, "developing triangle"), develop_(program(api, "develop", "render/develop.frag")),
       shrink_(program(api, "shrink", "render/shrink.frag")), gather_(program(api, "gather", "render/gather.frag")),
-      sample_(program(api, "sample", "render/sample.frag")),
-      samples_(api, "samples", format(api), sampleWidth, sampleHeight)
+      sample_(program(api, "sample", "render/sample.frag")), samples_(api, "samples", format(api), sampleWidth, sampleHeight)
 {
 }
 

@@ -31,8 +31,7 @@ std::vector<std::string> withSubcommand(const std::vector<CLI::App*>& subcommand
     if (std::find(names.begin(), names.end(), words[0]) != names.end())
         return words;
     if (!std::filesystem::exists(words[0]))
-        throw sky::UsageError("`" + words[0] + "` is neither a subcommand nor a model or description." +
-                              sky::suggestion(words[0], names));
+        throw sky::UsageError("`" + words[0] + "` is neither a subcommand nor a model or description." + sky::suggestion(words[0], names));
     words.insert(words.begin(), "view");
     return words;
 }

@@ -31,9 +31,7 @@ public:
     {
         auto* measure = app.add_subcommand("measure", "Time loading and drawing, 866 x 617 pixels, equirectangular");
         measure->add_option("MODEL", model_, "model directory")->required();
-        measure->add_option("--seconds", seconds_, "for each figure")
-            ->capture_default_str()
-            ->check(CLI::Range(0.1, 600.));
+        measure->add_option("--seconds", seconds_, "for each figure")->capture_default_str()->check(CLI::Range(0.1, 600.));
         return measure;
     }
 
@@ -70,8 +68,7 @@ public:
                 ++frame;
             }
             const double processor = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
-            std::printf("%-32s %.1f frames/s, %.0f ms of processor time each\n", what, frames / spent,
-                        1e3 * processor / frames);
+            std::printf("%-32s %.1f frames/s, %.0f ms of processor time each\n", what, frames / spent, 1e3 * processor / frames);
         };
         framesPerSecond("camera turning", [&] { camera.yaw = 0.001 * frame; });
         framesPerSecond("Sun moving", [&] { scene.sun.zenithAngle = 1 + 0.0005 * frame; });
@@ -79,9 +76,7 @@ public:
         scene = {};
         scene.eclipse = EclipseMode::on;
         scene.sun.zenithAngle = 0.8;
-        const auto moveMoon = [&] {
-            scene.moon = {0.00005 * (frame % 100), 0.8, 371925e3};
-        };
+        const auto moveMoon = [&] { scene.moon = {0.00005 * (frame % 100), 0.8, 371925e3}; };
         scene.eclipseOrders = 2;
         moveMoon();
         draw(); // what a model and a Sun need once
@@ -97,7 +92,8 @@ public:
         const auto once = [&](const char* what) {
             const std::clock_t before = std::clock();
             const double spent = secondsOf(draw);
-            std::printf("%-32s %.2f s, %.2f s of processor time\n", what, spent, static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC);
+            std::printf("%-32s %.2f s, %.2f s of processor time\n", what, spent,
+                        static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC);
         };
         once("city of a new radius");
         scene.cities[0].distance = 31e3;
@@ -122,9 +118,6 @@ private:
 
 } // namespace
 
-std::unique_ptr<Subcommand> makeMeasure()
-{
-    return std::make_unique<Measure>();
-}
+std::unique_ptr<Subcommand> makeMeasure() { return std::make_unique<Measure>(); }
 
 } // namespace showmysky::app

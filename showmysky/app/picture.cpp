@@ -55,8 +55,7 @@ void writeExr(const std::string& path, const Picture& picture)
     for (int y = 0; y < picture.height; ++y)
         for (std::size_t x = 0; x < width; ++x) {
             const auto& p = picture.pixels[static_cast<std::size_t>(picture.height - 1 - y) * width + x];
-            const auto rgb = sky::physics::linearSrgb(
-                {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)});
+            const auto rgb = sky::physics::linearSrgb({static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)});
             for (const double c : rgb)
                 values.push_back(static_cast<float>(c));
             values.insert(values.end(), {p.x, p.y, p.z, p.scotopic});
@@ -66,8 +65,8 @@ void writeExr(const std::string& path, const Picture& picture)
         Imf::FrameBuffer frame;
         for (std::size_t c = 0; c < channels; ++c) {
             header.channels().insert(names[c], Imf::Channel(Imf::FLOAT));
-            frame.insert(names[c], Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(values.data() + c),
-                                              channels * sizeof(float), channels * width * sizeof(float)));
+            frame.insert(names[c], Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(values.data() + c), channels * sizeof(float),
+                                              channels * width * sizeof(float)));
         }
         Imf::OutputFile file(path.c_str(), header);
         file.setFrameBuffer(frame);

@@ -7,8 +7,8 @@
 #include "probe_sources.hpp"
 #include "scene_options.hpp"
 #include "subcommand.hpp"
-#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
@@ -49,13 +49,16 @@ public:
     {
         auto* entry = app.add_subcommand("probe", "Answer a table of questions: spectral radiance or luminance of directions");
         entry->add_option("DIR", directory_, "Model directory.")->required();
-        entry->add_option("QUERIES", queries_, "CSV file with a header of altitude_m, sun_zenith_deg, sun_azimuth_deg, "
-                                               "view_zenith_deg, view_azimuth_deg; - for standard input.");
+        entry->add_option("QUERIES", queries_,
+                          "CSV file with a header of altitude_m, sun_zenith_deg, sun_azimuth_deg, "
+                          "view_zenith_deg, view_azimuth_deg; - for standard input.");
         entry->add_option("-o,--output", output_, "CSV file to write; - (the default) for standard output.");
         entry->add_option("--source", source_, "moments (the default), textures, or cpu: the moments in double precision.");
         entry->add_option("--layers", layers_, "Light to add up: some of zero,single,multiple,light-pollution (default: the first three).");
-        entry->add_option("--city", cities_, "Add the light of a city: distance=50km,azimuth=30,radius=5km,luminance=2[,spectrum=A:B:...]; "
-                                             "repeat it, or separate more by semicolons.")
+        entry
+            ->add_option("--city", cities_,
+                         "Add the light of a city: distance=50km,azimuth=30,radius=5km,luminance=2[,spectrum=A:B:...]; "
+                         "repeat it, or separate more by semicolons.")
             ->allow_extra_args(false);
         entry->add_flag("--precomputed-eclipse", precomputedEclipse_,
                         "With --source textures: where Sun and Moon stand concentric, take higher orders from the model's table of "

@@ -89,8 +89,7 @@ std::vector<Column> findColumns(const std::vector<Cell>& header, const std::stri
         names.push_back(cell.text);
     for (std::size_t i = 0; i < names.size(); ++i)
         if (std::count(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(i), names[i]))
-            throw sky::UsageError(name + ":1:" + std::to_string(header[i].column) + ": the column `" + names[i] +
-                                  "` is there twice.");
+            throw sky::UsageError(name + ":1:" + std::to_string(header[i].column) + ": the column `" + names[i] + "` is there twice.");
     std::vector<Column> result;
     const auto find = [&](const Field& field, const std::string& expected) {
         const auto found = std::find(names.begin(), names.end(), field.name);

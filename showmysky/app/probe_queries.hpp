@@ -9,11 +9,11 @@
 namespace showmysky::app {
 
 struct ProbeQueries {
-    std::string header;                   ///< the first line as it came
-    std::vector<std::string> lines;       ///< the other lines as they came, without empty ones
-    std::vector<Photometer::View> views;  ///< of each line
-    std::vector<Moon> moons;              ///< of each line; empty without the Moon's columns: no eclipse
-    std::vector<std::string> complaints;  ///< "file:line:column: what is wrong"; the first few
+    std::string header;                  ///< the first line as it came
+    std::vector<std::string> lines;      ///< the other lines as they came, without empty ones
+    std::vector<Photometer::View> views; ///< of each line
+    std::vector<Moon> moons;             ///< of each line; empty without the Moon's columns: no eclipse
+    std::vector<std::string> complaints; ///< "file:line:column: what is wrong"; the first few
 };
 
 /// Reads queries: a header with the columns altitude_m, sun_zenith_deg, sun_azimuth_deg, view_zenith_deg, view_azimuth_deg in any

@@ -52,12 +52,13 @@ class TextureSource : public ProbeSource
 {
 public:
     TextureSource(const std::string& directory, bool eclipseTable)
-        : model_(sky::model::Model::open(directory)), medium_(sky::model::readMedium(model_)),
-          planet_{medium_.planetRadius, medium_.topOfAtmosphere}, photometer_(directory)
+        : model_(sky::model::Model::open(directory)),
+          medium_(sky::model::readMedium(model_)), planet_{medium_.planetRadius, medium_.topOfAtmosphere}, photometer_(directory)
     {
         spectral_ = true;
         for (const auto& species : medium_.species)
-            if (const std::string table = "single-scattering/" + species.name; species.scatters() && model_.hasTable(table)) { // one that scatters no light has none
+            if (const std::string table = "single-scattering/" + species.name;
+                species.scatters() && model_.hasTable(table)) { // one that scatters no light has none
                 single_.push_back({&species, sky::model::ScatteringTable(model_, table), {}});
                 spectral_ = spectral_ && single_.back().table.table().channels == sky::model::Channels::SpectralRadiance;
             }
@@ -68,7 +69,8 @@ public:
         if (!eclipseTable)
             return;
         if (!model_.hasTable(sky::model::eclipseTable))
-            throw sky::UsageError("The model `" + directory + "` holds no table of eclipses; compute it without --no-eds-tex, or leave "
+            throw sky::UsageError("The model `" + directory +
+                                  "` holds no table of eclipses; compute it without --no-eds-tex, or leave "
                                   "--precomputed-eclipse out.");
         eclipsed_.emplace(Part{nullptr, sky::model::ScatteringTable(model_, sky::model::eclipseTable), {}});
     }
@@ -81,8 +83,9 @@ public:
     void answer(const Photometer::View& view, const Moon* moon, unsigned layers, double* values) override
     {
         if (moon && !eclipsed_)
-            throw sky::UsageError("These textures hold no eclipses; leave the Moon's columns out, use --source moments, or ask for the table "
-                                  "of eclipses by --precomputed-eclipse.");
+            throw sky::UsageError(
+                "These textures hold no eclipses; leave the Moon's columns out, use --source moments, or ask for the table "
+                "of eclipses by --precomputed-eclipse.");
         if (view.altitude > planet_.topOfAtmosphere)
             throw sky::UsageError("The textures end at the top of the atmosphere, " + std::to_string(planet_.topOfAtmosphere) +
                                   " m; use --source moments for views from above.");
@@ -108,7 +111,7 @@ private:
     struct Part {
         const sky::physics::Species* species; ///< null: multiple scattering
         sky::model::ScatteringTable table;
-        std::vector<float> slice;             ///< of the altitude and Sun below
+        std::vector<float> slice; ///< of the altitude and Sun below
         double altitude = -1, sun = 0;
     };
 
@@ -126,10 +129,11 @@ private:
     }
 
     /// As the renderer: higher orders from the table where it fits; the rest follows the Moon wherever it is.
-    void addEclipsed(const Photometer::View& view, const Moon& moon, unsigned layers, std::vector<double>& spectrum, std::vector<double>& xyz)
+    void addEclipsed(const Photometer::View& view, const Moon& moon, unsigned layers, std::vector<double>& spectrum,
+                     std::vector<double>& xyz)
     {
-        const auto bodies = bodiesOf(model_.manifest(), view.altitude, {view.sunAzimuth, view.sunZenithAngle, {}}, moon,
-                                     medium_.sunAngularRadius);
+        const auto bodies =
+            bodiesOf(model_.manifest(), view.altitude, {view.sunAzimuth, view.sunZenithAngle, {}}, moon, medium_.sunAngularRadius);
         const bool lookUp = (layers & Photometer::multipleScattering) && sky::model::eclipseTableFits(model_.manifest(), bodies);
         layers &= Photometer::wholeSky & ~(lookUp ? Photometer::multipleScattering : 0u);
         photometer_.eclipsedRadiance(&view, &moon, 1, layers, spectrum.data());

@@ -59,11 +59,9 @@ public:
         render->add_option("MODEL", model_, "model directory")->required();
         render->add_option("-o,--output", output_, "picture to write: .png or .exr")->required();
         render->add_option("--size", size_, "width x height in pixels")->capture_default_str()->group("Picture");
-        render->add_option("--animate", animation_, "NAME=FROM..TO:FRAMES: numbered pictures over a range of an option")
-            ->group("Picture");
+        render->add_option("--animate", animation_, "NAME=FROM..TO:FRAMES: numbered pictures over a range of an option")->group("Picture");
         render->add_flag("--gles", gles_, "use OpenGL ES 3.0 instead of OpenGL 3.3")->group("OpenGL");
-        render->add_option("--save-scene", saveScene_, "write the scene of the options to this file too")
-            ->group("Scene");
+        render->add_option("--save-scene", saveScene_, "write the scene of the options to this file too")->group("Scene");
         scene_.addTo(*render);
         return render;
     }
@@ -100,9 +98,8 @@ public:
             const Picture picture{sky.width(), sky.height(), sky.readLuminance()};
             const auto& development = scene_.development;
             if (extension == ".png")
-                writePng(path,
-                         developer.levels(sky.luminanceTexture(), width, height, development,
-                                          development.automatic ? automaticExposure(picture) : development.exposure));
+                writePng(path, developer.levels(sky.luminanceTexture(), width, height, development,
+                                                development.automatic ? automaticExposure(picture) : development.exposure));
             else
                 writeExr(path, picture);
             std::cout << path << std::endl;
@@ -116,8 +113,7 @@ private:
         int width = 0, height = 0;
         char rest = 0;
         if (std::sscanf(size_.c_str(), "%5dx%5d%c", &width, &height, &rest) != 2 || width < 1 || height < 1)
-            throw sky::UsageError("--size: `" + size_ +
-                                  "` is not understood; expected WIDTHxHEIGHT, for instance 1280x720.");
+            throw sky::UsageError("--size: `" + size_ + "` is not understood; expected WIDTHxHEIGHT, for instance 1280x720.");
         return {width, height};
     }
 
@@ -128,9 +124,6 @@ private:
 
 } // namespace
 
-std::unique_ptr<Subcommand> makeRender()
-{
-    return std::make_unique<Render>();
-}
+std::unique_ptr<Subcommand> makeRender() { return std::make_unique<Render>(); }
 
 } // namespace showmysky::app

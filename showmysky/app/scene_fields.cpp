@@ -121,27 +121,20 @@ const std::vector<std::string>& layerNames()
 template<class T>
 auto of(T SceneOptions::*member)
 {
-    return [member](auto& scene) -> auto&
-    {
-        return scene.*member;
-    };
+    return [member](auto& scene) -> auto& { return scene.*member; };
 }
 
 template<class T>
 auto of(T Development::*member)
 {
-    return [member](auto& scene) -> auto&
-    {
-        return scene.development.*member;
-    };
+    return [member](auto& scene) -> auto& { return scene.development.*member; };
 }
 
 std::vector<SceneField> makeFields()
 {
     constexpr const char *scene = "Scene", *picture = "Picture";
     SceneField exposure =
-        number("exposure", picture, "log10 of the factor on luminance in cd/m^2, or `auto`, the default",
-               of(&Development::exposure));
+        number("exposure", picture, "log10 of the factor on luminance in cd/m^2, or `auto`, the default", of(&Development::exposure));
     exposure.read = [](SceneOptions& options, std::string_view text) {
         options.development.automatic = text == "auto";
         if (text != "auto")
@@ -154,13 +147,12 @@ std::vector<SceneField> makeFields()
         options.development.automatic = false;
         return options.development.exposure;
     };
-    const SceneField solarSpectrum{
-        "solar-spectrum",
-        scene,
-        "`model`, `flat`, `black-body:TEMPERATURE`, or factors on the model's, one per wavelength",
-        SceneField::Kind::value,
-        [](SceneOptions& options, std::string_view text) { options.solarSpectrum = parseSolarSpectrum(text); },
-        [](const SceneOptions& options) { return toText(options.solarSpectrum); }};
+    const SceneField solarSpectrum{"solar-spectrum",
+                                   scene,
+                                   "`model`, `flat`, `black-body:TEMPERATURE`, or factors on the model's, one per wavelength",
+                                   SceneField::Kind::value,
+                                   [](SceneOptions& options, std::string_view text) { options.solarSpectrum = parseSolarSpectrum(text); },
+                                   [](const SceneOptions& options) { return toText(options.solarSpectrum); }};
     const SceneField cities{
         "city",
         scene,
@@ -183,19 +175,16 @@ std::vector<SceneField> makeFields()
         flag("precomputed-eclipse", scene, "with textures: where Sun and Moon stand concentric, take higher orders from the model's table",
              of(&SceneOptions::precomputedEclipse)),
         flag("eclipse-fine", scene, "finer tables in an eclipse, for stills", of(&SceneOptions::eclipseFine)),
-        flag("limb-darkening", scene, "in an eclipse, let the Sun be darker towards its limb",
-             of(&SceneOptions::limbDarkening)),
+        flag("limb-darkening", scene, "in an eclipse, let the Sun be darker towards its limb", of(&SceneOptions::limbDarkening)),
         number("light-pollution", scene, "luminance of the ground, cd/m^2", of(&SceneOptions::lightPollution)),
         cities,
         choice("source", scene, "tables that the light comes from: ", sourceNames(), of(&SceneOptions::source)),
-        flag("on-the-fly", scene, "with textures: gather single scattering instead of looking it up",
-             of(&SceneOptions::onTheFly)),
+        flag("on-the-fly", scene, "with textures: gather single scattering instead of looking it up", of(&SceneOptions::onTheFly)),
         list("layers", scene, "of zero (the ground), sun, single, multiple", &layerNames(), of(&SceneOptions::layers)),
         list("hide-scatterer", scene, "leave out single scattering of these, separated by commas", nullptr,
              of(&SceneOptions::hiddenScatterers)),
         solarSpectrum,
-        flag("mirror", scene, "mirror the sky below the horizon instead of showing the ground",
-             of(&SceneOptions::mirror)),
+        flag("mirror", scene, "mirror the sky below the horizon instead of showing the ground", of(&SceneOptions::mirror)),
         flag("unfiltered", scene, "show the texels of the sky tables", of(&SceneOptions::unfiltered)),
         choice("projection", picture, "", projectionNames(), of(&SceneOptions::projection)),
         number("fov", picture, "field of view over the width, degrees", of(&SceneOptions::fieldOfView)),
@@ -206,8 +195,7 @@ std::vector<SceneField> makeFields()
         choice("colours", picture, "", colourModeNames(), of(&Development::colours)),
         flag("gradual-clipping", picture, "fade too bright colours to white instead of cutting off each channel",
              of(&Development::gradualClipping)),
-        number("glare", picture, "light scattered in the eye; 0: none, 1: as in a healthy one",
-               of(&Development::glare)),
+        number("glare", picture, "light scattered in the eye; 0: none, 1: as in a healthy one", of(&Development::glare)),
         choice("dithering", picture, "", ditheringNames(), of(&Development::dithering)),
         choice("depth", picture, "bits of red, green and blue: ", depthNames(), of(&Development::depth)),
     };

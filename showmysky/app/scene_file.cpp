@@ -16,16 +16,14 @@ constexpr std::uint64_t longestFile = 1 << 20; // bytes
 /// Columns are counted in characters: bytes that continue one in UTF-8 don't count.
 std::size_t columnOf(std::string_view line, std::size_t byte)
 {
-    return 1 + static_cast<std::size_t>(
-                   std::count_if(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(byte),
-                                 [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+    return 1 + static_cast<std::size_t>(std::count_if(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(byte),
+                                                      [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
 
 } // namespace
 
 void readLines(std::string_view text, const std::string& file,
-               const std::function<bool(const std::string& name, std::string_view value)>& take,
-               const std::vector<std::string>& known)
+               const std::function<bool(const std::string& name, std::string_view value)>& take, const std::vector<std::string>& known)
 {
     std::vector<std::string> seen;
     for (int number = 1; !text.empty(); ++number) {
@@ -36,8 +34,7 @@ void readLines(std::string_view text, const std::string& file,
             continue;
         const auto fail = [&](std::string_view at, const std::string& message) {
             throw sky::UsageError(file + ":" + std::to_string(number) + ":" +
-                                  std::to_string(columnOf(line, static_cast<std::size_t>(at.data() - line.data()))) +
-                                  ": " + message);
+                                  std::to_string(columnOf(line, static_cast<std::size_t>(at.data() - line.data()))) + ": " + message);
         };
         const auto colon = content.find(':');
         if (colon == std::string_view::npos)
@@ -83,8 +80,7 @@ void readScene(SceneOptions& scene, std::string_view text, const std::string& fi
 {
     SceneOptions result = scene;
     readLines(
-        text, file, [&](const std::string& name, std::string_view value) { return setField(result, name, value); },
-        fieldNames());
+        text, file, [&](const std::string& name, std::string_view value) { return setField(result, name, value); }, fieldNames());
     scene = result;
 }
 
@@ -101,9 +97,6 @@ std::string writeScene(const SceneOptions& scene)
     return text;
 }
 
-void saveScene(const SceneOptions& scene, const std::filesystem::path& path)
-{
-    sky::writeTextFile(path, writeScene(scene));
-}
+void saveScene(const SceneOptions& scene, const std::filesystem::path& path) { sky::writeTextFile(path, writeScene(scene)); }
 
 } // namespace showmysky::app

@@ -14,8 +14,7 @@ namespace showmysky::app {
 ///   known   names, for suggestions
 ///   throws  sky::UsageError starting with `file:line:column: `
 void readLines(std::string_view text, const std::string& file,
-               const std::function<bool(const std::string& name, std::string_view value)>& take,
-               const std::vector<std::string>& known);
+               const std::function<bool(const std::string& name, std::string_view value)>& take, const std::vector<std::string>& known);
 
 /// What isn't named keeps its value.   throws sky::UsageError, `scene` is then as before
 void readScene(SceneOptions& scene, std::string_view text, const std::string& file);

@@ -39,16 +39,13 @@ void SceneOptions::addTo(CLI::App& app)
         const std::string option = "--" + field.name;
         if (field.kind == SceneField::Kind::flag) {
             app.add_flag_function(
-                   option + ",!--no-" + field.name,
-                   [this, &field](std::int64_t count) { field.read(*this, count > 0 ? "yes" : "no"); }, field.help)
+                   option + ",!--no-" + field.name, [this, &field](std::int64_t count) { field.read(*this, count > 0 ? "yes" : "no"); },
+                   field.help)
                 ->group(field.group);
             continue;
         }
         auto* added = app.add_option_function<std::string>(
-            option,
-            [this, option, &field](const std::string& text) {
-                complainingFor(option, [&] { field.read(*this, text); });
-            },
+            option, [this, option, &field](const std::string& text) { complainingFor(option, [&] { field.read(*this, text); }); },
             field.help);
         added->default_str(field.write(*this))->type_name("")->group(field.group);
         if (field.kind == SceneField::Kind::repeated)
@@ -90,10 +87,7 @@ SceneSettings SceneOptions::settings(const Sky& sky) const
     return settings;
 }
 
-Camera SceneOptions::camera() const
-{
-    return {projection, fieldOfView * degree, yaw * degree, pitch * degree, 0};
-}
+Camera SceneOptions::camera() const { return {projection, fieldOfView * degree, yaw * degree, pitch * degree, 0}; }
 
 double& SceneOptions::number(const std::string& name)
 {

@@ -38,7 +38,8 @@ struct SceneOptions {
     SolarSpectrum solarSpectrum;
     Source source = Source::moments;
     Projection projection = Projection::perspective;
-    bool eclipse = false, precomputedEclipse = false, eclipseFine = false, limbDarkening = false, onTheFly = false, mirror = false, unfiltered = false;
+    bool eclipse = false, precomputedEclipse = false, eclipseFine = false, limbDarkening = false, onTheFly = false, mirror = false,
+         unfiltered = false;
     Development development;
 
     /// Adds all options to a subcommand, and --scene, whose file comes before the others wherever it stands; the values

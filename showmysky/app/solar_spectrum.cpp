@@ -44,8 +44,7 @@ SolarSpectrum parseSolarSpectrum(std::string_view text)
         result.kind = SolarSpectrum::Kind::blackBody;
         const auto temperature = parseNumber(text.substr(blackBodyPrefix.size()));
         if (!temperature || !(*temperature >= coolest && *temperature <= hottest))
-            throw sky::UsageError("`" + std::string(text) +
-                                  "` has no temperature from 500 to 1000000 K after the colon.");
+            throw sky::UsageError("`" + std::string(text) + "` has no temperature from 500 to 1000000 K after the colon.");
         result.temperature = *temperature;
         return result;
     }
@@ -64,14 +63,10 @@ SolarSpectrum parseSolarSpectrum(std::string_view text)
 std::string toText(const SolarSpectrum& spectrum)
 {
     switch (spectrum.kind) {
-    case SolarSpectrum::Kind::model:
-        return "model";
-    case SolarSpectrum::Kind::flat:
-        return "flat";
-    case SolarSpectrum::Kind::blackBody:
-        return std::string(blackBodyPrefix) + toText(spectrum.temperature);
-    case SolarSpectrum::Kind::factors:
-        break;
+    case SolarSpectrum::Kind::model: return "model";
+    case SolarSpectrum::Kind::flat: return "flat";
+    case SolarSpectrum::Kind::blackBody: return std::string(blackBodyPrefix) + toText(spectrum.temperature);
+    case SolarSpectrum::Kind::factors: break;
     }
     std::string text;
     for (const double factor : spectrum.factors)
@@ -86,9 +81,8 @@ std::vector<double> solarFactors(const SolarSpectrum& spectrum, const std::vecto
         return {};
     if (spectrum.kind == SolarSpectrum::Kind::factors) {
         if (spectrum.factors.size() != wavelengthsNm.size())
-            throw sky::UsageError("The solar spectrum has " + std::to_string(spectrum.factors.size()) +
-                                  " factors; this model wants " + std::to_string(wavelengthsNm.size()) +
-                                  ", one per wavelength.");
+            throw sky::UsageError("The solar spectrum has " + std::to_string(spectrum.factors.size()) + " factors; this model wants " +
+                                  std::to_string(wavelengthsNm.size()) + ", one per wavelength.");
         return spectrum.factors;
     }
     std::vector<double> wanted(wavelengthsNm.size(), 1.);

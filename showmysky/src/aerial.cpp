@@ -22,9 +22,7 @@ constexpr double mostDepth = 80;
 
 AerialSpacing spacingOf(const physics::Planet& planet, double altitude, bool ground)
 {
-    return ground                               ? AerialSpacing::bothEnds
-           : altitude > planet.topOfAtmosphere ? AerialSpacing::even
-                                               : AerialSpacing::fromCamera;
+    return ground ? AerialSpacing::bothEnds : altitude > planet.topOfAtmosphere ? AerialSpacing::even : AerialSpacing::fromCamera;
 }
 
 /// SeenColumns at one distance: within a cell the air is taken as uniform.
@@ -173,13 +171,14 @@ void Aerial::growLight(int view, double mu, const Line& single, const Line& mult
         for (int k = 0; k < distances; ++k)
             for (std::size_t c = 0; c < 4; ++c)
                 at(table, k, view, column)[c] = total[c] > faintest ? std::clamp(grown[static_cast<std::size_t>(k)][c] / total[c], 0.f, 1.f)
-                                                                   : columnShares[static_cast<std::size_t>(k)][c];
+                                                                    : columnShares[static_cast<std::size_t>(k)][c];
     };
     const double radius = atmosphere_.planet().radius + scene_.altitude, flat = std::sqrt(std::max(0., 1 - mu * mu));
     for (int a = 0; a < columns(); ++a) {
         const int fromSun = scene_.sunlight ? a - (azimuths - 1) : a; // columns
         const double relative = pi * fromSun / (azimuths - 1), nu = std::clamp(mu * muSun + sines * std::cos(relative), -1., 1.);
-        const std::array<double, 3> direction{flat * std::cos(scene_.sunAzimuth + relative), flat * std::sin(scene_.sunAzimuth + relative), mu};
+        const std::array<double, 3> direction{flat * std::cos(scene_.sunAzimuth + relative), flat * std::sin(scene_.sunAzimuth + relative),
+                                              mu};
         std::vector<double> lit(stride, 0.);
         std::vector<std::vector<Texel>> singles(scatterers, std::vector<Texel>(distances, Texel{}));
         std::vector<std::vector<double>> ratios(scatterers, std::vector<double>(wavelengths));
@@ -193,9 +192,9 @@ void Aerial::growLight(int view, double mu, const Line& single, const Line& mult
             sun_.transmittance(node.altitude, std::clamp(node.sunScale * muSun + node.nuScale * nu, -1., 1.), light.data());
             if (scene_.sunlight) {
                 const double distance = radius * node.nuScale / node.sunScale;
-                const auto left = static_cast<double>(scene_.sunlight({static_cast<float>(distance * direction[0]),
-                                                                       static_cast<float>(distance * direction[1]),
-                                                                       static_cast<float>(distance * direction[2])}));
+                const auto left = static_cast<double>(
+                    scene_.sunlight({static_cast<float>(distance * direction[0]), static_cast<float>(distance * direction[1]),
+                                     static_cast<float>(distance * direction[2])}));
                 for (double& value : light)
                     value *= left;
             }

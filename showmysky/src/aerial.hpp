@@ -32,8 +32,7 @@ public:
     static constexpr int halfViews = 16, azimuths = 9, distances = 32;
 
     /// \param moments may be null: then light of higher orders grows as its air scatters
-    Aerial(const Atmosphere& atmosphere, const Phases& phases, const sky::physics::Moments* moments,
-           const sky::physics::SunTable& sun);
+    Aerial(const Atmosphere& atmosphere, const Phases& phases, const sky::physics::Moments* moments, const sky::physics::SunTable& sun);
 
     void set(AerialScene scene);
     /// Follows some more lines; true once all are done.

@@ -5,8 +5,8 @@ namespace showmysky {
 
 namespace physics = sky::physics;
 
-physics::EclipseBodies bodiesOf(const sky::model::Manifest& manifest, const double altitude, const Sun& sun,
-                                const Moon& moon, const double sunAngularRadius)
+physics::EclipseBodies bodiesOf(const sky::model::Manifest& manifest, const double altitude, const Sun& sun, const Moon& moon,
+                                const double sunAngularRadius)
 {
     physics::EclipseBodies bodies;
     bodies.planet = {manifest.planetRadius, manifest.topOfAtmosphere};

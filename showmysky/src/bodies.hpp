@@ -8,8 +8,8 @@
 namespace showmysky {
 
 /// \param sunAngularRadius  rad, at the camera
-sky::physics::EclipseBodies bodiesOf(const sky::model::Manifest& manifest, double altitude, const Sun& sun,
-                                     const Moon& moon, double sunAngularRadius);
+sky::physics::EclipseBodies bodiesOf(const sky::model::Manifest& manifest, double altitude, const Sun& sun, const Moon& moon,
+                                     double sunAngularRadius);
 
 /// throws sky::RangeError where the Moon can't be there
 EclipseState stateOf(const sky::physics::EclipseBodies& bodies);

@@ -87,21 +87,14 @@ Camera cameraOf(const showmysky_camera& camera)
 {
     if (camera.projection < SHOWMYSKY_EQUIRECTANGULAR || camera.projection > SHOWMYSKY_FISHEYE)
         throw Error(ErrorKind::settings, "There is no projection of number " + std::to_string(camera.projection) + ".");
-    return {static_cast<Projection>(camera.projection), camera.field_of_view, camera.yaw, camera.pitch,
-            camera.direction_texture};
+    return {static_cast<Projection>(camera.projection), camera.field_of_view, camera.yaw, camera.pitch, camera.direction_texture};
 }
 
 } // namespace
 
-int showmysky_abi_version(void)
-{
-    return SHOWMYSKY_ABI_VERSION;
-}
+int showmysky_abi_version(void) { return SHOWMYSKY_ABI_VERSION; }
 
-const char* showmysky_error(void)
-{
-    return lastError.c_str();
-}
+const char* showmysky_error(void) { return lastError.c_str(); }
 
 showmysky_sky* showmysky_open(const char* model_directory, showmysky_gl_loader loader, void* user, const char* function)
 {
@@ -117,10 +110,7 @@ showmysky_sky* showmysky_open(const char* model_directory, showmysky_gl_loader l
     return result;
 }
 
-void showmysky_close(showmysky_sky* sky)
-{
-    delete sky;
-}
+void showmysky_close(showmysky_sky* sky) { delete sky; }
 
 void showmysky_abandon_context(showmysky_sky* sky)
 {
@@ -162,8 +152,8 @@ int showmysky_eclipse_state(const showmysky_sky* sky, const showmysky_scene* sce
 {
     return guarded([&] {
         const EclipseState state = sky->sky.eclipseState(settingsOf(*scene));
-        *result = {static_cast<int>(state.phase), state.obscuration,      state.magnitude,
-                   state.separation,              state.sunAngularRadius, state.moonAngularRadius};
+        *result = {static_cast<int>(state.phase), state.obscuration,      state.magnitude, state.separation,
+                   state.sunAngularRadius,        state.moonAngularRadius};
     });
 }
 
@@ -184,14 +174,8 @@ int showmysky_draw_prepared(showmysky_sky* sky, const showmysky_camera* camera, 
     return guarded([&] { sky->sky.drawPrepared(cameraOf(*camera), width, height, reduction); });
 }
 
-unsigned showmysky_luminance_texture(const showmysky_sky* sky)
-{
-    return sky->sky.luminanceTexture();
-}
-unsigned showmysky_program(const showmysky_sky* sky)
-{
-    return sky->sky.program();
-}
+unsigned showmysky_luminance_texture(const showmysky_sky* sky) { return sky->sky.luminanceTexture(); }
+unsigned showmysky_program(const showmysky_sky* sky) { return sky->sky.program(); }
 
 int showmysky_pixel_luminance(const showmysky_sky* sky, int x, int y, showmysky_luminance* result)
 {

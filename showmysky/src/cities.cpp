@@ -18,18 +18,15 @@ using sky::base::pi;
 constexpr double cityCells = 2; // of the tracer
 /// Of a city's own table; azimuths from its direction, pi x^2: close where its light is.
 constexpr int halfViews = 24, azimuths = 17;
-constexpr int cityNodes = 14;             ///< along a ray, beside those near the city
+constexpr int cityNodes = 14; ///< along a ray, beside those near the city
 constexpr std::size_t fieldsKept = 16;
-constexpr double largestRadius = 0.1;     ///< of the planet's
-constexpr double darkest = 1e-30;         ///< that is told from zero
+constexpr double largestRadius = 0.1; ///< of the planet's
+constexpr double darkest = 1e-30;     ///< that is told from zero
 
 /// Cosine of the angle between a direction and the axis from the planet's centre through a city.
 double alongAxis(double angle, double mu, double towards) { return mu * std::cos(angle) + towards * std::sin(angle); }
 
-double interpolated(double a, double b, double x)
-{
-    return a > darkest && b > darkest ? a * std::pow(b / a, x) : a + x * (b - a);
-}
+double interpolated(double a, double b, double x) { return a > darkest && b > darkest ? a * std::pow(b / a, x) : a + x * (b - a); }
 
 } // namespace
 
@@ -45,8 +42,7 @@ std::string Cities::whyNot(const std::vector<City>& cities) const
         if (!(city.distance >= 0 && city.distance <= pi * planet) || !std::isfinite(city.azimuth))
             return "A city must stand 0 to " + std::to_string(std::lround(pi * planet / 1e3)) + " km away, in an azimuth that is a number.";
         if (!(city.radius > 0 && city.radius <= largestRadius * planet))
-            return "The radius of a city must be above 0 and at most " + std::to_string(std::lround(largestRadius * planet / 1e3)) +
-                   " km.";
+            return "The radius of a city must be above 0 and at most " + std::to_string(std::lround(largestRadius * planet / 1e3)) + " km.";
         if (!(city.luminance >= 0 && city.luminance <= 1e12))
             return "The luminance of a city must be a number of cd/m^2, at least 0.";
         if (city.spectrum.empty() && modelSpectrum_.empty())

@@ -16,10 +16,7 @@ using sky::base::pi;
 
 } // namespace
 
-EclipseShares::EclipseShares(const Atmosphere& atmosphere, const physics::SunTable& sun)
-    : atmosphere_(atmosphere), sun_(sun)
-{
-}
+EclipseShares::EclipseShares(const Atmosphere& atmosphere, const physics::SunTable& sun) : atmosphere_(atmosphere), sun_(sun) {}
 
 void EclipseShares::set(const double altitude, const double muSun, const std::vector<Texel>& weights)
 {
@@ -85,12 +82,10 @@ void EclipseShares::shine(Ray& ray, const double mu) const
     std::vector<double> light(wavelengths);
     const double sines = std::sqrt(std::max(0., (1 - mu * mu) * (1 - muSun_ * muSun_)));
     for (std::size_t a = 0; a < azimuths; ++a) {
-        const double nu =
-            std::clamp(mu * muSun_ + sines * std::cos(pi * static_cast<double>(a) / (azimuths - 1)), -1., 1.);
+        const double nu = std::clamp(mu * muSun_ + sines * std::cos(pi * static_cast<double>(a) / (azimuths - 1)), -1., 1.);
         for (std::size_t k = 0; k < nodes; ++k) {
             const auto& place = ray.places[k];
-            sun_.transmittance(place.altitude, std::clamp(place.sunScale * muSun_ + place.nuScale * nu, -1., 1.),
-                               light.data());
+            sun_.transmittance(place.altitude, std::clamp(place.sunScale * muSun_ + place.nuScale * nu, -1., 1.), light.data());
             for (std::size_t i = 0; i < scatterers; ++i) {
                 Texel& sum = ray.light[(a * nodes + k) * scatterers + i];
                 const float* weight = &ray.weights[(k * scatterers + i) * wavelengths];

@@ -25,8 +25,8 @@ public:
     /// The nodes of one line of sight: between two rays.
     struct Line {
         std::vector<float> distance; ///< [node], m from the camera
-        std::vector<Texel> light; ///< [azimuth][node][scatterer]: luminance of single scattering without phase function
-        bool lit = false;         ///< meets any air
+        std::vector<Texel> light;    ///< [azimuth][node][scatterer]: luminance of single scattering without phase function
+        bool lit = false;            ///< meets any air
     };
     /// \param coordinate  0 at the horizon to 1 at the end of the half, as physics::horizonAngleNodes
     void line(double coordinate, int half, Line& result) const;

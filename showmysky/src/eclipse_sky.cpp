@@ -22,10 +22,8 @@ constexpr int sharesPerStep = 16;
 /// Bilinear, in the coordinates of an ordinary table.
 Texel sampled(const ViewTable& table, double coordinate, int half, double azimuth)
 {
-    const double v = std::clamp(coordinate, 0., 1.) * (table.halfViews - 1),
-                 a = std::clamp(azimuth, 0., 1.) * (table.azimuths - 1);
-    const int i = std::min(static_cast<int>(v), table.halfViews - 2),
-              k = std::min(static_cast<int>(a), table.azimuths - 2);
+    const double v = std::clamp(coordinate, 0., 1.) * (table.halfViews - 1), a = std::clamp(azimuth, 0., 1.) * (table.azimuths - 1);
+    const int i = std::min(static_cast<int>(v), table.halfViews - 2), k = std::min(static_cast<int>(a), table.azimuths - 2);
     const auto y = static_cast<float>(v - i), x = static_cast<float>(a - k);
     const int row = half * table.halfViews + i;
     Texel result;
@@ -53,8 +51,7 @@ EclipseSky::EclipseSky(const Atmosphere& atmosphere, const physics::SunTable& su
 void EclipseSky::set(const EclipseScene& scene)
 {
     if (scene_ && samePlaces(scene_->bodies, scene.bodies) && same(scene_->orders, scene.orders) &&
-        scene_->limbDarkening == scene.limbDarkening && scene_->field == scene.field &&
-        scene_->weights == scene.weights)
+        scene_->limbDarkening == scene.limbDarkening && scene_->field == scene.field && scene_->weights == scene.weights)
         return;
     shadow_ = physics::makeShadow(scene.bodies); // throws before anything is changed
     scene_ = scene;
@@ -74,8 +71,7 @@ bool EclipseSky::step()
             return false;
         const auto& planet = atmosphere_.planet();
         // Nodes, and ground as far as it is seen.
-        const double reach =
-            shares_.reach() + physics::horizonDistance(planet, scene_->bodies.cameraAltitude) + 2e6;
+        const double reach = shares_.reach() + physics::horizonDistance(planet, scene_->bodies.cameraAltitude) + 2e6;
         light_.emplace(shadow_, reach, scene_->limbDarkening ? &law_ : nullptr, scene_->weights);
         return false;
     }
@@ -101,18 +97,14 @@ bool EclipseSky::followField()
     return false;
 }
 
-double EclipseSky::fractionDone() const
-{
-    return ready_ ? 1 : !light_ ? 0 : 0.2 + (field_ ? 0.7 * field_->fractionDone() : 0);
-}
+double EclipseSky::fractionDone() const { return ready_ ? 1 : !light_ ? 0 : 0.2 + (field_ ? 0.7 * field_->fractionDone() : 0); }
 
 std::vector<eclipse::ViewRay> EclipseSky::viewRays() const
 {
     std::vector<eclipse::ViewRay> rays;
     const auto sines = viewSines(atmosphere_.planet(), scene_->bodies.cameraAltitude, ratioHalfViews);
     for (std::size_t i = 0; i < sines.size(); ++i)
-        rays.push_back(
-            eclipseViewRay(atmosphere_.planet(), scene_->bodies.cameraAltitude, sines[i], i >= ratioHalfViews));
+        rays.push_back(eclipseViewRay(atmosphere_.planet(), scene_->bodies.cameraAltitude, sines[i], i >= ratioHalfViews));
     return rays;
 }
 
@@ -142,23 +134,20 @@ void EclipseSky::tabulateRatios()
     groundRatios_ = ratios(light.groundEclipsed, light.groundUneclipsed);
 }
 
-Texel EclipseSky::ratioAt(const std::vector<Texel>& table, const double coordinate, const int half,
-                          const double relative) const
+Texel EclipseSky::ratioAt(const std::vector<Texel>& table, const double coordinate, const int half, const double relative) const
 {
-    const double v = std::clamp(coordinate, 0., 1.) * (ratioHalfViews - 1),
-                 a = (relative / (2 * pi) + 1) * ratioAzimuths;
+    const double v = std::clamp(coordinate, 0., 1.) * (ratioHalfViews - 1), a = (relative / (2 * pi) + 1) * ratioAzimuths;
     const int row = std::min(static_cast<int>(v), ratioHalfViews - 2), column = static_cast<int>(a);
     const auto y = static_cast<float>(v - row), t = static_cast<float>(a - column);
     // Cubic around the circle, where nodes are few; a ratio has no sharp edges and can't leave 0..1 by much.
-    const std::array<float, 4> w{0.5f * t * (-1 + t * (2 - t)), 1 + 0.5f * t * t * (-5 + 3 * t),
-                                 0.5f * t * (1 + t * (4 - 3 * t)), 0.5f * t * t * (t - 1)};
+    const std::array<float, 4> w{0.5f * t * (-1 + t * (2 - t)), 1 + 0.5f * t * t * (-5 + 3 * t), 0.5f * t * (1 + t * (4 - 3 * t)),
+                                 0.5f * t * t * (t - 1)};
     Texel result{};
     for (int i = 0; i < 4; ++i) {
         const int k = (column - 1 + i + ratioAzimuths) % ratioAzimuths;
         const auto at = static_cast<std::size_t>((half * ratioHalfViews + row) * ratioAzimuths + k);
         for (std::size_t c = 0; c < 4; ++c)
-            result[c] +=
-                w[static_cast<std::size_t>(i)] * (table[at][c] + y * (table[at + ratioAzimuths][c] - table[at][c]));
+            result[c] += w[static_cast<std::size_t>(i)] * (table[at][c] + y * (table[at + ratioAzimuths][c] - table[at][c]));
     }
     for (float& value : result)
         value = std::clamp(value, 0.f, 1.f);
@@ -169,8 +158,7 @@ SkyView EclipseSky::dimmed(const OrdinarySky& sky, const ViewTable* const eclips
 {
     const auto& planet = atmosphere_.planet();
     const double altitude = scene_->bodies.cameraAltitude;
-    SkyAxes axes{physics::horizonElevation(planet, altitude), true,
-                 std::asin(std::clamp(scene_->bodies.sunDirection[2], -1., 1.))};
+    SkyAxes axes{physics::horizonElevation(planet, altitude), true, std::asin(std::clamp(scene_->bodies.sunDirection[2], -1., 1.))};
     SkyView result;
     result.eclipse = true;
     result.whole = ViewTable(halfViews, azimuths);
@@ -180,8 +168,8 @@ SkyView EclipseSky::dimmed(const OrdinarySky& sky, const ViewTable* const eclips
             result.scattered[i] = ViewTable(halfViews, azimuths);
     // As fine as they are drawn without an eclipse.
     const auto fine = [](const ViewTable& table) { return resampled(table, drawnHalfViews, drawnAzimuths); };
-    const ViewTable multiple = fine(eclipsed ? *eclipsed : sky.view.whole), direct = fine(sky.groundDirect), diffuse = fine(sky.groundDiffuse),
-                    glow = fine(sky.glow);
+    const ViewTable multiple = fine(eclipsed ? *eclipsed : sky.view.whole), direct = fine(sky.groundDirect),
+                    diffuse = fine(sky.groundDiffuse), glow = fine(sky.glow);
     std::vector<ViewTable> single;
     for (const auto& table : sky.view.scattered)
         single.push_back(fine(table));
@@ -204,8 +192,7 @@ SkyView EclipseSky::dimmed(const OrdinarySky& sky, const ViewTable* const eclips
             for (int a = 0; a < azimuths; ++a) {
                 const double relative = relatives[static_cast<std::size_t>(a)], azimuth = std::abs(relative) / pi;
                 const std::array<float, 3> direction{static_cast<float>(flat * std::cos(sunAzimuth_ + relative)),
-                                                     static_cast<float>(flat * std::sin(sunAzimuth_ + relative)),
-                                                     static_cast<float>(mu)};
+                                                     static_cast<float>(flat * std::sin(sunAzimuth_ + relative)), static_cast<float>(mu)};
                 const auto lightAt = [&](float distance) {
                     return light_->at({distance * direction[0], distance * direction[1], distance * direction[2]});
                 };
@@ -247,8 +234,7 @@ SkyView EclipseSky::dimmed(const OrdinarySky& sky, const ViewTable* const eclips
                         continue;
                     const Texel value = sampled(single[i], coordinate, half, azimuth);
                     for (std::size_t c = 0; c < 4; ++c)
-                        result.scattered[i].at(v, a)[c] =
-                            all[i][c] > 0 ? value[c] * (left[i][c] / all[i][c]) : value[c];
+                        result.scattered[i].at(v, a)[c] = all[i][c] > 0 ? value[c] * (left[i][c] / all[i][c]) : value[c];
                 }
             }
         }
@@ -271,9 +257,8 @@ EclipseSky::Ratios EclipseSky::ratios(const std::array<double, 3>& direction, co
     Ratios result{std::vector<double>(wavelengths, 1.), std::vector<double>(wavelengths, 1.)};
     while (!followField()) {
     }
-    const auto light =
-        field_->view({eclipseViewRay(atmosphere_.planet(), scene_->bodies.cameraAltitude, direction[2], ground)},
-                     {std::atan2(direction[1], direction[0])});
+    const auto light = field_->view({eclipseViewRay(atmosphere_.planet(), scene_->bodies.cameraAltitude, direction[2], ground)},
+                                    {std::atan2(direction[1], direction[0])});
     for (int w = 0; w < light.wavelengths; ++w) {
         result.sky[static_cast<std::size_t>(w)] = static_cast<double>(light.skyRatio(0, 0, w));
         result.ground[static_cast<std::size_t>(w)] = static_cast<double>(light.groundRatio(0, 0, w));

@@ -14,18 +14,15 @@ inline sky::eclipse::ViewRay eclipseViewRay(const sky::physics::Planet& planet, 
     const auto entry = enterAir(planet, altitude, mu);
     if (!entry)
         return {planet.topOfAtmosphere, 1, false, 0};
-    const double before = entry->outerShift > 0
-                              ? sky::eclipse::groundDistance(planet.radius, entry->outerScale, entry->outerShift, mu)
-                              : 0;
+    const double before = entry->outerShift > 0 ? sky::eclipse::groundDistance(planet.radius, entry->outerScale, entry->outerShift, mu) : 0;
     return {entry->altitude, entry->mu, ground, before};
 }
 
 /// True if camera, Sun and Moon of one model stand the same.
 inline bool samePlaces(const sky::physics::EclipseBodies& a, const sky::physics::EclipseBodies& b)
 {
-    return a.cameraAltitude == b.cameraAltitude && a.sunDirection == b.sunDirection &&
-           a.moonDirection == b.moonDirection && a.moonDistance == b.moonDistance &&
-           a.sunAngularRadius == b.sunAngularRadius;
+    return a.cameraAltitude == b.cameraAltitude && a.sunDirection == b.sunDirection && a.moonDirection == b.moonDirection &&
+           a.moonDistance == b.moonDistance && a.sunAngularRadius == b.sunAngularRadius;
 }
 
 } // namespace showmysky

@@ -24,7 +24,8 @@ void setView(ViewTable& table, int view, const std::array<double, 4>& luminance)
 
 Glow::Glow(const sky::model::Model& model, const physics::Medium& medium)
     : model_(model), medium_(medium), moments_(sky::model::readGlow(model)), profile_(physics::glowProfile(medium)),
-      optics_(physics::glowOptics(medium, moments_.degree)), light_(medium, optics_, moments_), weights_(physics::luminanceWeights(medium.wavelengthsNm))
+      optics_(physics::glowOptics(medium, moments_.degree)), light_(medium, optics_, moments_),
+      weights_(physics::luminanceWeights(medium.wavelengthsNm))
 {
 }
 

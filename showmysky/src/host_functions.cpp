@@ -34,8 +34,8 @@ std::string hostName(std::string name)
 } // namespace
 
 HostFunctions::HostFunctions(const gl::Api& api, int scatterers, gl::TextureFormat format)
-    : api_(api), aerial_(api, "aerial perspective", format, Aerial::azimuths, 2 * Aerial::halfViews,
-                         Aerial::tables(scatterers) * Aerial::distances)
+    : api_(api),
+      aerial_(api, "aerial perspective", format, Aerial::azimuths, 2 * Aerial::halfViews, Aerial::tables(scatterers) * Aerial::distances)
 {
 }
 
@@ -51,7 +51,8 @@ void HostFunctions::set(const Aerial& aerial, const sky::physics::Planet& planet
     for (const Texel& texel : aerial.texels())
         values.insert(values.end(), texel.begin(), texel.end());
     if (aerial_.size().width != aerial.columns())
-        aerial_ = gl::Texture3D(api_, "aerial perspective", aerial_.format(), aerial.columns(), aerial_.size().height, aerial_.size().depth);
+        aerial_ =
+            gl::Texture3D(api_, "aerial perspective", aerial_.format(), aerial.columns(), aerial_.size().height, aerial_.size().depth);
     aerial_.upload(values);
     uniforms_["aerialPlanet"] = std::array<float, 2>{static_cast<float>(planet.radius), static_cast<float>(planet.topOfAtmosphere)};
     uniforms_["aerialAltitude"] = static_cast<float>(altitude);

@@ -2,8 +2,8 @@
 
 #include "air_entry.hpp"
 #include "base/angles.hpp"
-#include "base/parallel.hpp"
 #include "base/lanes.hpp"
+#include "base/parallel.hpp"
 #include "physics/harmonics.hpp"
 #include "physics/table_axes.hpp"
 #include <algorithm>
@@ -31,8 +31,7 @@ void transmit(const float* __restrict near, const float* __restrict far, float x
 }
 
 SKY_WIDEST_VECTORS
-void addProducts(const float* __restrict weights, const float* __restrict light, int scatterers, int stride,
-                 float* __restrict sums)
+void addProducts(const float* __restrict weights, const float* __restrict light, int scatterers, int stride, float* __restrict sums)
 {
     for (int i = 0; i < scatterers; ++i)
         for (int w = 0; w < stride; ++w)
@@ -41,8 +40,8 @@ void addProducts(const float* __restrict weights, const float* __restrict light,
 
 /// One node of the field at one Sun: `levels` are the four altitudes of its stencil, [lm][stride] each.
 SKY_WIDEST_VECTORS
-void foldNode(const float* const levels[4], const float weights[4], const float* __restrict coefficients, int degree,
-              int stride, float* __restrict out)
+void foldNode(const float* const levels[4], const float weights[4], const float* __restrict coefficients, int degree, int stride,
+              float* __restrict out)
 {
     const float *a = levels[0], *b = levels[1], *c = levels[2], *d = levels[3];
     for (int w = 0; w < stride; ++w) {
@@ -56,15 +55,14 @@ void foldNode(const float* const levels[4], const float weights[4], const float*
             const int at = lm * stride;
             float* __restrict term = out + (m + 1) * stride;
             for (int w = 0; w < stride; ++w)
-                term[w] += coefficients[at + w] * (weights[0] * a[at + w] + weights[1] * b[at + w] +
-                                                   weights[2] * c[at + w] + weights[3] * d[at + w]);
+                term[w] += coefficients[at + w] *
+                           (weights[0] * a[at + w] + weights[1] * b[at + w] + weights[2] * c[at + w] + weights[3] * d[at + w]);
         }
 }
 
 /// Adds 2^level sum_m cos(m phi) term_m, all interpolated between four Suns.
 SKY_WIDEST_VECTORS
-void addNode(const float* const suns[4], const float weights[4], const float* waves, int degree, int stride,
-             float* __restrict radiance)
+void addNode(const float* const suns[4], const float weights[4], const float* waves, int degree, int stride, float* __restrict radiance)
 {
     const float *a = suns[0], *b = suns[1], *c = suns[2], *d = suns[3];
     for (int w = 0; w < stride; ++w) {
@@ -78,18 +76,14 @@ void addNode(const float* const suns[4], const float weights[4], const float* wa
     }
 }
 
-float clampedSine(float x)
-{
-    return std::clamp(x, -1.f, 1.f);
-}
+float clampedSine(float x) { return std::clamp(x, -1.f, 1.f); }
 
 } // namespace
 
 MomentGather::MomentGather(const Atmosphere& atmosphere, const Phases& phases, const physics::Moments* moments,
                            const physics::SunTable& sun, double sunAngularRadius)
-    : atmosphere_(atmosphere), phases_(phases), moments_(moments), sun_(sun),
-      sunRadius_(static_cast<float>(sunAngularRadius)), stride_((atmosphere.wavelengths() + 3) / 4 * 4),
-      scatterers_(atmosphere.scatterers()), degree_(moments ? moments->degree : 0),
+    : atmosphere_(atmosphere), phases_(phases), moments_(moments), sun_(sun), sunRadius_(static_cast<float>(sunAngularRadius)),
+      stride_((atmosphere.wavelengths() + 3) / 4 * 4), scatterers_(atmosphere.scatterers()), degree_(moments ? moments->degree : 0),
       suns_(moments ? moments->grid.sunCount() : 0)
 {
     const int wavelengths = atmosphere.wavelengths();
@@ -104,8 +98,8 @@ MomentGather::MomentGather(const Atmosphere& atmosphere, const Phases& phases, c
     groundField_.assign(static_cast<std::size_t>(suns_ * 2 * stride_), 1.f);
     for (int j = 0; j < suns_; ++j)
         for (int w = 0; w < wavelengths; ++w)
-            groundField_[static_cast<std::size_t>(j * 2 * stride_ + w)] = static_cast<float>(std::log2(
-                std::max(moments->groundIrradiance[static_cast<std::size_t>(j * wavelengths + w)], physics::darkness)));
+            groundField_[static_cast<std::size_t>(j * 2 * stride_ + w)] = static_cast<float>(
+                std::log2(std::max(moments->groundIrradiance[static_cast<std::size_t>(j * wavelengths + w)], physics::darkness)));
     const int harmonics = physics::harmonicCount(degree_);
     field_.assign(static_cast<std::size_t>(moments->grid.altitudeCount() * suns_ * harmonics * stride_), 0.f);
     for (int a = 0; a < moments->grid.altitudeCount(); ++a)
@@ -113,8 +107,7 @@ MomentGather::MomentGather(const Atmosphere& atmosphere, const Phases& phases, c
             for (int lm = 0; lm < harmonics; ++lm)
                 for (int w = 0; w < wavelengths; ++w)
                     field_[static_cast<std::size_t>(((a * suns_ + j) * harmonics + lm) * stride_ + w)] =
-                        static_cast<float>(moments->at(a, j)[lm * wavelengths + w] *
-                                           (lm == 0 ? static_cast<double>(toLog2) : 1.));
+                        static_cast<float>(moments->at(a, j)[lm * wavelengths + w] * (lm == 0 ? static_cast<double>(toLog2) : 1.));
 }
 
 void MomentGather::setAltitude(double altitude)
@@ -167,19 +160,17 @@ void MomentGather::trace(int index, physics::RayTracer& tracer) const
         for (int w = 0; w < wavelengths; ++w) {
             // Scattering is scaled down by what truncation took, the phase function isn't: see physics::Optics.
             const int species = atmosphere_.optics.scatterers[i % static_cast<std::size_t>(scatterers_)];
-            const double truncation =
-                atmosphere_.optics.truncation[static_cast<std::size_t>(species * wavelengths + w)];
+            const double truncation = atmosphere_.optics.truncation[static_cast<std::size_t>(species * wavelengths + w)];
             ray.singleWeights[i * static_cast<std::size_t>(stride_) + static_cast<std::size_t>(w)] = static_cast<float>(
-                single.weights[i * static_cast<std::size_t>(wavelengths) + static_cast<std::size_t>(w)] /
-                (1 - truncation));
+                single.weights[i * static_cast<std::size_t>(wavelengths) + static_cast<std::size_t>(w)] / (1 - truncation));
         }
     if (ray.ground) {
         ray.groundNode = nodeOf(entry->node(single.ground));
         for (int w = 0; w < stride_; ++w)
-            ray.groundFactors.push_back(
-                w < wavelengths ? static_cast<float>(single.groundTransmittance[static_cast<std::size_t>(w)] *
-                                                     atmosphere_.medium.groundAlbedo[static_cast<std::size_t>(w)] / pi)
-                                : 0.f);
+            ray.groundFactors.push_back(w < wavelengths
+                                            ? static_cast<float>(single.groundTransmittance[static_cast<std::size_t>(w)] *
+                                                                 atmosphere_.medium.groundAlbedo[static_cast<std::size_t>(w)] / pi)
+                                            : 0.f);
     }
     if (!moments_)
         return;
@@ -196,11 +187,9 @@ void MomentGather::trace(int index, physics::RayTracer& tracer) const
                 for (int i = 0; i < scatterers_; ++i)
                     for (int w = 0; w < wavelengths; ++w)
                         ray.coefficients[static_cast<std::size_t>((k * harmonics + lm) * stride_ + w)] +=
-                            static_cast<float>(
-                                factors[static_cast<std::size_t>(lm)] *
-                                multiple.weights[static_cast<std::size_t>((k * scatterers_ + i) * wavelengths + w)] *
-                                atmosphere_.optics.moment(atmosphere_.optics.scatterers[static_cast<std::size_t>(i)], l,
-                                                          w));
+                            static_cast<float>(factors[static_cast<std::size_t>(lm)] *
+                                               multiple.weights[static_cast<std::size_t>((k * scatterers_ + i) * wavelengths + w)] *
+                                               atmosphere_.optics.moment(atmosphere_.optics.scatterers[static_cast<std::size_t>(i)], l, w));
     }
     ray.folded.resize(static_cast<std::size_t>(multipleNodes * suns_ * (degree_ + 2) * stride_));
     ray.isFolded.assign(static_cast<std::size_t>(multipleNodes * suns_), 0);
@@ -231,8 +220,7 @@ const float* MomentGather::folded(Ray& ray, int node, int sun) const
             levels[i] = &field_[static_cast<std::size_t>((stencil.index[i] * suns_ + sun) * harmonics * stride_)];
             weights[i] = static_cast<float>(stencil.weight[i]);
         }
-        foldNode(levels, weights, &ray.coefficients[static_cast<std::size_t>(node * harmonics * stride_)], degree_,
-                 stride_, result);
+        foldNode(levels, weights, &ray.coefficients[static_cast<std::size_t>(node * harmonics * stride_)], degree_, stride_, result);
         done = 1;
     }
     return result;
@@ -240,8 +228,8 @@ const float* MomentGather::folded(Ray& ray, int node, int sun) const
 
 void MomentGather::sunlight(const Node& node, float elevation, float* result) const
 {
-    const auto visible = static_cast<float>(
-        physics::visibleDiscFraction(static_cast<double>(elevation - node.horizon), static_cast<double>(sunRadius_)));
+    const auto visible =
+        static_cast<float>(physics::visibleDiscFraction(static_cast<double>(elevation - node.horizon), static_cast<double>(sunRadius_)));
     if (visible <= 0) {
         std::fill(result, result + stride_, 0.f);
         return;
@@ -261,8 +249,7 @@ void MomentGather::addSingle(const Ray& ray, float muSun, float nu, float* lit) 
     for (std::size_t k = 0; k < ray.single.size(); ++k) {
         const Node& node = ray.single[k];
         sunlight(node, std::asin(clampedSine(node.sunScale * muSun + node.nuScale * nu)), light.data());
-        addProducts(&ray.singleWeights[k * static_cast<std::size_t>(scatterers_ * stride_)], light.data(), scatterers_,
-                    stride_, lit);
+        addProducts(&ray.singleWeights[k * static_cast<std::size_t>(scatterers_ * stride_)], light.data(), scatterers_, stride_, lit);
     }
 }
 
@@ -272,8 +259,7 @@ void MomentGather::addMultiple(Ray& ray, float muSun, float nu, float* radiance)
     for (int k = 0; k < multipleNodes; ++k) {
         const Node& node = ray.multiple[static_cast<std::size_t>(k)];
         const float muSunNode = clampedSine(node.sunScale * muSun + node.nuScale * nu);
-        const auto stencil =
-            moments_->grid.sunStencil(moments_->grid.sunPosition(std::asin(static_cast<double>(muSunNode))));
+        const auto stencil = moments_->grid.sunStencil(moments_->grid.sunPosition(std::asin(static_cast<double>(muSunNode))));
         const float sines = std::sqrt(std::max(0.f, (1 - node.mu * node.mu) * (1 - muSunNode * muSunNode)));
         const float cosine = sines > 1e-6f ? clampedSine((nu - node.mu * muSunNode) / sines) : 1.f;
         float wave = 1, before = cosine; // cos(m phi), cos((m - 1) phi)
@@ -304,8 +290,8 @@ void MomentGather::addGround(const Ray& ray, float muSun, float nu, const Layers
     float cosine = std::max(muSunThere, 0.f);
     if (std::abs(elevation) < sunRadius_) {
         const float x = elevation / sunRadius_;
-        const auto area = static_cast<float>(
-            pi * physics::visibleDiscFraction(static_cast<double>(elevation), static_cast<double>(sunRadius_)));
+        const auto area =
+            static_cast<float>(pi * physics::visibleDiscFraction(static_cast<double>(elevation), static_cast<double>(sunRadius_)));
         cosine = std::max(0.f, elevation + (x < -0.99f ? 0.f : sunRadius_ * 2 / 3 * std::pow(1 - x * x, 1.5f) / area));
     }
     for (float& value : light)

@@ -49,9 +49,8 @@ private:
         bool lit = false; // meets any air
         bool ground = false;
         std::vector<Node> single, multiple;
-        std::vector<float> singleWeights; // [node][scatterer][stride]
-        std::vector<float>
-            coefficients; // [node][lm][stride]: sum over scatterers of weight lambda_l, times the harmonic factor
+        std::vector<float> singleWeights;   // [node][scatterer][stride]
+        std::vector<float> coefficients;    // [node][lm][stride]: sum over scatterers of weight lambda_l, times the harmonic factor
         std::vector<float> folded;          // [node][sun][1 + term][stride]; valid where `isFolded`
         std::vector<std::uint8_t> isFolded; // [node][sun]
         Node groundNode{};
@@ -72,10 +71,9 @@ private:
     const sky::physics::SunTable& sun_;
     float sunRadius_;
     int stride_, scatterers_, degree_, suns_ = 0;
-    std::vector<float> sunDepths_; // [altitude][elevation][stride]
-    std::vector<float> field_;     // [altitude][sun][lm][stride]: log2 I_00, then ratios
-    std::vector<float>
-        groundField_; // [sun][2][stride]: log2 of the diffuse irradiance of the ground, then 1: as of a node
+    std::vector<float> sunDepths_;   // [altitude][elevation][stride]
+    std::vector<float> field_;       // [altitude][sun][lm][stride]: log2 I_00, then ratios
+    std::vector<float> groundField_; // [sun][2][stride]: log2 of the diffuse irradiance of the ground, then 1: as of a node
     double altitude_ = -1;
     std::vector<double> sines_;
     mutable std::vector<Ray> rays_;

@@ -26,17 +26,12 @@ gl::Program buildProgram(const gl::Api& api, int scatterers, const Options& opti
         defines.push_back({"CITIES", "1"});
     const bool host = !options.viewDirectionFunction.empty();
     const std::string builtIn = "render/projections.glsl";
-    const gl::Snippet projection{"viewDirection",
-                                 host ? options.viewDirectionFunction : std::string(sky::shaders::source(builtIn)),
+    const gl::Snippet projection{"viewDirection", host ? options.viewDirectionFunction : std::string(sky::shaders::source(builtIn)),
                                  host ? "viewDirectionFunction" : builtIn, 1, false};
-    return gl::ProgramBuilder(api, sky::shaders::source)
-        .graphics("sky", "render/triangle.vert", "render/sky.frag", defines, {projection});
+    return gl::ProgramBuilder(api, sky::shaders::source).graphics("sky", "render/triangle.vert", "render/sky.frag", defines, {projection});
 }
 
-gl::TextureFormat formatOf(bool half)
-{
-    return half ? gl::TextureFormat::rgba16f : gl::TextureFormat::rgba32f;
-}
+gl::TextureFormat formatOf(bool half) { return half ? gl::TextureFormat::rgba16f : gl::TextureFormat::rgba32f; }
 
 std::vector<float> flat(const std::vector<Texel>& texels)
 {
@@ -81,8 +76,8 @@ std::vector<gl::Define> Painter::lightDefines(int scatterers)
 }
 
 Painter::Painter(const gl::Api& api, int scatterers, const std::vector<Texel>& phases, const Options& options)
-    : api_(api), half_(options.halfFloats || api.isEs()), hostProjection_(!options.viewDirectionFunction.empty()),
-      scatterers_(scatterers), program_(buildProgram(api, scatterers, options, false, false)), options_(options), triangle_(api, "sky triangle"),
+    : api_(api), half_(options.halfFloats || api.isEs()), hostProjection_(!options.viewDirectionFunction.empty()), scatterers_(scatterers),
+      program_(buildProgram(api, scatterers, options, false, false)), options_(options), triangle_(api, "sky triangle"),
       phases_(api, "phase functions", formatOf(half_), phaseWidth, static_cast<int>(phases.size()) / phaseWidth),
       tables_(api, "sky tables", formatOf(half_), drawnAzimuths, 2 * drawnHalfViews * (scatterers + 1)),
       cityAir_(api, "air above cities", formatOf(half_), 1, 1), cityDiscs_(api, "cities", gl::TextureFormat::rgba32f, 1, 1),
@@ -131,8 +126,7 @@ void Painter::setSky(const SkyView& view, const SceneGeometry& geometry)
     const int azimuths = view.eclipse ? view.whole.azimuths : drawnAzimuths;
     const std::size_t texelsOfTable = std::size_t(2) * static_cast<std::size_t>(halfViews * azimuths);
     for (int i = -1; i < scatterers_; ++i) {
-        const ViewTable table =
-            resampled(i < 0 ? view.whole : view.scattered[static_cast<std::size_t>(i)], halfViews, azimuths);
+        const ViewTable table = resampled(i < 0 ? view.whole : view.scattered[static_cast<std::size_t>(i)], halfViews, azimuths);
         float largest = 0;
         for (const Texel& texel : table.texels)
             largest = std::max({largest, texel[0], texel[1], texel[2], texel[3]});
@@ -153,11 +147,8 @@ void Painter::setSky(const SkyView& view, const SceneGeometry& geometry)
     light_["tableScales"] = scales;
     light_["sunDirection"] = asFloats(geometry.sunDirection);
     light_["horizon"] = static_cast<float>(geometry.horizon);
-    const auto inverseRange = [](double range) {
-        return static_cast<float>(1 / std::asinh(range / sky::physics::horizonAngleScale));
-    };
-    light_["inverseRanges"] = std::array<float, 2>{inverseRange(pi / 2 - geometry.horizon),
-                                                    inverseRange(pi / 2 + geometry.horizon)};
+    const auto inverseRange = [](double range) { return static_cast<float>(1 / std::asinh(range / sky::physics::horizonAngleScale)); };
+    light_["inverseRanges"] = std::array<float, 2>{inverseRange(pi / 2 - geometry.horizon), inverseRange(pi / 2 + geometry.horizon)};
     light_["mirror"] = geometry.mirror ? 1 : 0;
     light_["dipTangent"] = static_cast<float>(geometry.dipTangent);
     light_["sunColours"] = std::vector<Texel>(geometry.sunColours.begin(), geometry.sunColours.end());
@@ -208,9 +199,9 @@ void Painter::setAxes(const SkyView& view, const SceneGeometry& geometry)
     const auto columns = axes.azimuthFocus();
     light_["wholeTurn"] = view.eclipse ? 1 : 0; // hosts have one program for both
     light_["viewFocus"] = std::array<float, 4>{static_cast<float>(focus.share), static_cast<float>(focus.sun),
-                                                static_cast<float>(focus.offset), static_cast<float>(focus.scale)};
-    light_["azimuthFocus"] = std::array<float, 3>{static_cast<float>(columns[0]), static_cast<float>(columns[1]),
-                                                  static_cast<float>(columns[2])};
+                                               static_cast<float>(focus.offset), static_cast<float>(focus.scale)};
+    light_["azimuthFocus"] =
+        std::array<float, 3>{static_cast<float>(columns[0]), static_cast<float>(columns[1]), static_cast<float>(columns[2])};
 }
 
 void Painter::setCamera(const Camera& camera, int width, int height)
@@ -271,12 +262,10 @@ std::array<double, 3> Painter::drawDirection(const Camera& camera, int x, int y)
     triangle_.drawFullScreenTriangle();
     const auto values = directionTarget_.readPixels(0);
     gl::checkErrors(api_, "asking for the direction of a pixel");
-    const double size =
-        std::hypot(static_cast<double>(values[0]), static_cast<double>(values[1]), static_cast<double>(values[2]));
+    const double size = std::hypot(static_cast<double>(values[0]), static_cast<double>(values[1]), static_cast<double>(values[2]));
     if (!(size > 0))
         return {};
-    return {static_cast<double>(values[0]) / size, static_cast<double>(values[1]) / size,
-            static_cast<double>(values[2]) / size};
+    return {static_cast<double>(values[0]) / size, static_cast<double>(values[1]) / size, static_cast<double>(values[2]) / size};
 }
 
 Texel Painter::readPixel(int x, int y) const
@@ -295,12 +284,10 @@ Texel Painter::readPixel(int x, int y) const
 
 std::size_t Painter::textureBytes() const
 {
-    return bytesOf(phases_) + bytesOf(tables_) + bytesOf(cityAir_) + bytesOf(cityDiscs_) + bytesOf(direction_) + (luminance_ ? bytesOf(*luminance_) : 0);
+    return bytesOf(phases_) + bytesOf(tables_) + bytesOf(cityAir_) + bytesOf(cityDiscs_) + bytesOf(direction_) +
+           (luminance_ ? bytesOf(*luminance_) : 0);
 }
 
-int Painter::fetchesPerPixel() const
-{
-    return 1 + (cities_ > 0 ? 1 : 0) + scatterers_ + (scatterers_ + 3) / 4;
-}
+int Painter::fetchesPerPixel() const { return 1 + (cities_ > 0 ? 1 : 0) + scatterers_ + (scatterers_ + 3) / 4; }
 
 } // namespace showmysky

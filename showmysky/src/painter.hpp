@@ -17,15 +17,15 @@ constexpr int sunColourCount = 8; ///< samples of the disc's luminance from its 
 /// What the picture depends on beside the tables.
 struct SceneGeometry {
     std::array<double, 3> sunDirection{};
-    double horizon = 0;   ///< elevation, rad
+    double horizon = 0;    ///< elevation, rad
     double dipTangent = 0; ///< of its angle below the horizontal
-    double sunRadius = 0; ///< rad
+    double sunRadius = 0;  ///< rad
     bool showSun = false;
     std::array<Texel, sunColourCount> sunColours{};
     bool eclipse = false;
     std::array<double, 3> moonDirection{};
-    double moonRadius = 0;  ///< rad
-    Texel limbExponents{};  ///< of the disc's darkening towards its limb
+    double moonRadius = 0; ///< rad
+    Texel limbExponents{}; ///< of the disc's darkening towards its limb
     bool mirror = false;
     bool filter = true;
 };

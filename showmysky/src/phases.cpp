@@ -69,8 +69,7 @@ std::vector<Texel> Phases::texels(int width) const
             double mean = 0;
             for (std::size_t w = 0; w < shares_.size(); ++w)
                 mean += shares_[w] * values[w];
-            result[static_cast<std::size_t>(i / 4 * width + x)][static_cast<std::size_t>(i % 4)] =
-                static_cast<float>(std::pow(mean, 0.25));
+            result[static_cast<std::size_t>(i / 4 * width + x)][static_cast<std::size_t>(i % 4)] = static_cast<float>(std::pow(mean, 0.25));
         }
     return result;
 }

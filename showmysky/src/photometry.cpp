@@ -26,10 +26,7 @@ void checkRange(const char* name, double value, double low, double high, const c
 
 void checkAltitude(double altitude) { checkRange("The altitude", altitude, 0, 1e15, "0 or more metres"); }
 
-void checkZenithAngle(const char* name, double angle)
-{
-    checkRange(name, angle, 0, pi * (1 + 1e-12), "0 (the zenith) to pi (the nadir)");
-}
+void checkZenithAngle(const char* name, double angle) { checkRange(name, angle, 0, pi * (1 + 1e-12), "0 (the zenith) to pi (the nadir)"); }
 
 void checkView(const Photometer::View& view)
 {
@@ -83,8 +80,7 @@ struct Photometer::Inside {
     };
 
     Inside(const std::string& directory, Method how)
-        : sky(directory), method(how),
-          gather(sky.medium, sky.optics, sky.sun, sky.moments ? &*sky.moments : nullptr)
+        : sky(directory), method(how), gather(sky.medium, sky.optics, sky.sun, sky.moments ? &*sky.moments : nullptr)
     {
         if (Glow::whyMissing(sky.model).empty())
             glow.emplace(sky.model, sky.medium);
@@ -141,8 +137,9 @@ struct Photometer::Inside {
 void Photometer::Inside::checkLayers(const unsigned layers) const
 {
     if (layers & ~(wholeSky | lightPollution))
-        throw Error(ErrorKind::settings, "The layers " + std::to_string(layers) + " are unknown; expected a sum of 1 (zero order), 2 "
-                                         "(single scattering), 4 (multiple scattering) and 8 (light pollution).");
+        throw Error(ErrorKind::settings, "The layers " + std::to_string(layers) +
+                                             " are unknown; expected a sum of 1 (zero order), 2 "
+                                             "(single scattering), 4 (multiple scattering) and 8 (light pollution).");
     if ((layers & lightPollution) && !glow)
         throw Error(ErrorKind::unsupported, Glow::whyMissing(sky.model));
     if ((layers & (multipleScattering | zeroOrder)) && !sky.moments && !sky.onceAtMost)
@@ -152,8 +149,7 @@ void Photometer::Inside::checkLayers(const unsigned layers) const
 }
 
 /// Light scattered into a ray, per unit solar irradiance.
-void Photometer::Inside::scattered(const RayStart& start, double nu, const FastGather::Parts& parts, Scratch& scratch,
-                                   double* result) const
+void Photometer::Inside::scattered(const RayStart& start, double nu, const FastGather::Parts& parts, Scratch& scratch, double* result) const
 {
     if (method == Method::fast) {
         gather.radiance(scratch.fast, start.altitude, start.mu, start.muSun, nu, parts, result);
@@ -194,8 +190,7 @@ void Photometer::Inside::addGround(const RayStart& start, double nu, Scratch& sc
         result[w] += sky.medium.groundAlbedo[w] / pi * transmittance[w] * scratch.light[w];
 }
 
-void Photometer::Inside::eclipsed(const View& view, const Moon& moon, const unsigned layers, Scratch& scratch,
-                                  double* const result) const
+void Photometer::Inside::eclipsed(const View& view, const Moon& moon, const unsigned layers, Scratch& scratch, double* const result) const
 {
     checkView(view);
     checkZenithAngle("The Moon's zenith angle", moon.zenithAngle);
@@ -213,8 +208,8 @@ void Photometer::Inside::radiance(const View& view, const unsigned layers, Scrat
     checkView(view);
     const double azimuth = view.viewAzimuth - view.sunAzimuth;
     RayStart start{view.altitude, std::cos(view.viewZenithAngle), std::cos(view.sunZenithAngle)};
-    const double nu = std::clamp(start.mu * start.muSun + std::sin(view.viewZenithAngle) * std::sin(view.sunZenithAngle) * std::cos(azimuth),
-                                 -1., 1.);
+    const double nu =
+        std::clamp(start.mu * start.muSun + std::sin(view.viewZenithAngle) * std::sin(view.sunZenithAngle) * std::cos(azimuth), -1., 1.);
     std::fill(result, result + wavelengths(), 0.);
     if (!enter(sky.profile.planet(), start, nu))
         return;
@@ -329,13 +324,13 @@ double Photometer::obscuration(const View& view, const Moon& moon) const
     });
 }
 
-void Photometer::cityRadiance(const View* const views, const std::size_t count, const std::vector<City>& cities, double* const spectra) const
+void Photometer::cityRadiance(const View* const views, const std::size_t count, const std::vector<City>& cities,
+                              double* const spectra) const
 {
     translated([&] {
         const auto& sky = inside_->sky;
-        std::call_once(inside_->citiesOnce, [&] {
-            inside_->cities = std::make_unique<Cities>(sky.medium, sky.model.manifest().lightPollutionRadiance);
-        });
+        std::call_once(inside_->citiesOnce,
+                       [&] { inside_->cities = std::make_unique<Cities>(sky.medium, sky.model.manifest().lightPollutionRadiance); });
         const std::string wrong = inside_->cities->whyNot(cities);
         if (!wrong.empty())
             throw Error(ErrorKind::settings, wrong);
@@ -345,10 +340,10 @@ void Photometer::cityRadiance(const View* const views, const std::size_t count, 
             checkAltitude(views[i].altitude);
             checkZenithAngle("The view's zenith angle", views[i].viewZenithAngle);
             const double sine = std::sin(views[i].viewZenithAngle);
-            inside_->cities->addRadiance(cities, views[i].altitude,
-                                         {sine * std::cos(views[i].viewAzimuth), -sine * std::sin(views[i].viewAzimuth),
-                                          std::cos(views[i].viewZenithAngle)},
-                                         spectra + i * wavelengths);
+            inside_->cities->addRadiance(
+                cities, views[i].altitude,
+                {sine * std::cos(views[i].viewAzimuth), -sine * std::sin(views[i].viewAzimuth), std::cos(views[i].viewZenithAngle)},
+                spectra + i * wavelengths);
         }
     });
 }

@@ -1,6 +1,6 @@
+#include "c_cities.hpp"
 #include "showmysky/photometry.h"
 #include "showmysky/photometry.hpp"
-#include "c_cities.hpp"
 #include <algorithm>
 #include <cstring>
 #include <new>
@@ -14,7 +14,8 @@ struct showmysky_photometer {
 };
 
 static_assert(sizeof(showmysky_view) == 5 * sizeof(double));
-static_assert(unsigned(SHOWMYSKY_ZERO_ORDER) == Photometer::zeroOrder && unsigned(SHOWMYSKY_SINGLE_SCATTERING) == Photometer::singleScattering &&
+static_assert(unsigned(SHOWMYSKY_ZERO_ORDER) == Photometer::zeroOrder &&
+              unsigned(SHOWMYSKY_SINGLE_SCATTERING) == Photometer::singleScattering &&
               unsigned(SHOWMYSKY_MULTIPLE_SCATTERING) == Photometer::multipleScattering &&
               unsigned(SHOWMYSKY_LIGHT_POLLUTION) == Photometer::lightPollution && unsigned(SHOWMYSKY_WHOLE_SKY) == Photometer::wholeSky);
 
@@ -92,8 +93,7 @@ int showmysky_photometer_open(const char* directory, int reference, showmysky_ph
         return fail(SHOWMYSKY_PHOTOMETRY_BAD_ARGUMENT, "A null pointer was passed where a text or a place for the result is expected.");
     *result = nullptr;
     return guarded([&] {
-        *result = new showmysky_photometer{
-            Photometer(directory, reference ? Photometer::Method::reference : Photometer::Method::fast)};
+        *result = new showmysky_photometer{Photometer(directory, reference ? Photometer::Method::reference : Photometer::Method::fast)};
     });
 }
 
@@ -106,16 +106,14 @@ size_t showmysky_photometer_wavelength_count(const showmysky_photometer* photome
 
 int showmysky_photometer_wavelengths(const showmysky_photometer* photometer, double* nanometres)
 {
-    return answer(photometer, nanometres, [&](const Photometer& p) {
-        std::copy(p.wavelengthsNm().begin(), p.wavelengthsNm().end(), nanometres);
-    });
+    return answer(photometer, nanometres,
+                  [&](const Photometer& p) { std::copy(p.wavelengthsNm().begin(), p.wavelengthsNm().end(), nanometres); });
 }
 
 int showmysky_photometer_solar_irradiance(const showmysky_photometer* photometer, double* spectrum)
 {
-    return answer(photometer, spectrum, [&](const Photometer& p) {
-        std::copy(p.solarIrradiance().begin(), p.solarIrradiance().end(), spectrum);
-    });
+    return answer(photometer, spectrum,
+                  [&](const Photometer& p) { std::copy(p.solarIrradiance().begin(), p.solarIrradiance().end(), spectrum); });
 }
 
 int showmysky_photometer_radiance(const showmysky_photometer* photometer, const showmysky_view* views, size_t count, unsigned layers,
@@ -185,6 +183,5 @@ int showmysky_photometer_sun_irradiance(const showmysky_photometer* photometer, 
 int showmysky_photometer_horizontal_irradiance(const showmysky_photometer* photometer, double altitude, double sunZenithAngle,
                                                double* direct, double* diffuse)
 {
-    return answer(photometer, true,
-                  [&](const Photometer& p) { p.horizontalIrradiance(altitude, sunZenithAngle, direct, diffuse); });
+    return answer(photometer, true, [&](const Photometer& p) { p.horizontalIrradiance(altitude, sunZenithAngle, direct, diffuse); });
 }

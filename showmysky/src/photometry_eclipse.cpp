@@ -19,8 +19,8 @@ constexpr int eclipseNodes = 400;
 
 physics::EclipseBodies EclipsePhotometry::bodiesOf(const Photometer::View& view, const Moon& moon) const
 {
-    return showmysky::bodiesOf(sky_.model.manifest(), view.altitude, Sun{view.sunAzimuth, view.sunZenithAngle, {}},
-                               moon, sky_.medium.sunAngularRadius);
+    return showmysky::bodiesOf(sky_.model.manifest(), view.altitude, Sun{view.sunAzimuth, view.sunZenithAngle, {}}, moon,
+                               sky_.medium.sunAngularRadius);
 }
 
 double EclipsePhotometry::obscuration(const Photometer::View& view, const Moon& moon) const
@@ -28,8 +28,7 @@ double EclipsePhotometry::obscuration(const Photometer::View& view, const Moon& 
     return stateOf(bodiesOf(view, moon)).obscuration;
 }
 
-std::shared_ptr<const sky::eclipse::ScatteredField>
-EclipsePhotometry::fieldOf(const physics::EclipseBodies& bodies) const
+std::shared_ptr<const sky::eclipse::ScatteredField> EclipsePhotometry::fieldOf(const physics::EclipseBodies& bodies) const
 {
     const std::lock_guard lock(mutex_);
     if (field_ && samePlaces(known_, bodies))
@@ -46,8 +45,7 @@ EclipsePhotometry::fieldOf(const physics::EclipseBodies& bodies) const
     return field_ = std::move(field);
 }
 
-void EclipsePhotometry::radiance(const Photometer::View& view, const Moon& moon, const unsigned layers,
-                                 double* const result) const
+void EclipsePhotometry::radiance(const Photometer::View& view, const Moon& moon, const unsigned layers, double* const result) const
 {
     const auto wavelengths = static_cast<std::size_t>(sky_.medium.wavelengthCount());
     std::fill_n(result, wavelengths, 0.);
@@ -81,8 +79,8 @@ void EclipsePhotometry::radiance(const Photometer::View& view, const Moon& moon,
                ground = (layers & Photometer::zeroOrder) && hitsGround;
     std::vector<double> light(wavelengths), skyRatio(wavelengths, 1.), groundRatio(wavelengths, 1.);
     if (sky_.moments && (multiple || ground)) {
-        const auto field = fieldOf(bodies)->view({eclipseViewRay(planet, view.altitude, mu, hitsGround)},
-                                                 {std::atan2(direction[1], direction[0])});
+        const auto field =
+            fieldOf(bodies)->view({eclipseViewRay(planet, view.altitude, mu, hitsGround)}, {std::atan2(direction[1], direction[0])});
         for (int w = 0; w < field.wavelengths; ++w) {
             skyRatio[static_cast<std::size_t>(w)] = static_cast<double>(field.skyRatio(0, 0, w));
             groundRatio[static_cast<std::size_t>(w)] = static_cast<double>(field.groundRatio(0, 0, w));
@@ -90,8 +88,7 @@ void EclipsePhotometry::radiance(const Photometer::View& view, const Moon& moon,
     }
     if (ground) {
         const auto there = entry->node(ray.ground);
-        const double muSunThere = std::clamp(there.sunScale * muSun + there.nuScale * nu, -1., 1.),
-                     visible = visibleAt(there);
+        const double muSunThere = std::clamp(there.sunScale * muSun + there.nuScale * nu, -1., 1.), visible = visibleAt(there);
         const auto addReflected = [&](const auto& share) {
             for (std::size_t w = 0; w < wavelengths; ++w)
                 result[w] += ray.groundTransmittance[w] * sky_.medium.groundAlbedo[w] / pi * share(w) * light[w];
@@ -104,8 +101,8 @@ void EclipsePhotometry::radiance(const Photometer::View& view, const Moon& moon,
         }
     }
     if (multiple) {
-        auto coarse = tracer.trace(entry->altitude, entry->mu, physics::SkyEvaluator::Parts{}.multipleNodes, hitsGround,
-                                   physics::NodesFor::Field);
+        auto coarse =
+            tracer.trace(entry->altitude, entry->mu, physics::SkyEvaluator::Parts{}.multipleNodes, hitsGround, physics::NodesFor::Field);
         for (auto& node : coarse.nodes)
             node = entry->node(node);
         std::fill(light.begin(), light.end(), 0.);

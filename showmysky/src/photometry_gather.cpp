@@ -39,8 +39,8 @@ void addSunlight(const SunNode* nodes, int count, int scatterers, int blocks, co
 struct FieldNode {
     const Block* corners[16]; ///< [lm][block] each
     float weights[16];
-    const float* harmonics;   ///< [lm], Y_lm of the ray's direction
-    const Block* scattering;  ///< [scatterer][block]
+    const float* harmonics;  ///< [lm], Y_lm of the ray's direction
+    const Block* scattering; ///< [scatterer][block]
 };
 
 SKY_WIDEST_VECTORS
@@ -88,9 +88,9 @@ void interpolatePhase(const Block* low, const Block* high, float x, bool logarit
 
 FastGather::FastGather(const physics::Medium& medium, const physics::Optics& optics, const physics::SunTable& sun,
                        const physics::Moments* moments, const Effort& effort)
-    : sun_(sun), moments_(moments), planet_{medium.planetRadius, medium.topOfAtmosphere}, profile_(medium, effort.profileTolerance), folder_(profile_, optics, effort), wavelengths_(optics.wavelengths),
-      blocks_(folder_.blocks()), scatterers_(folder_.scatterers()), degree_(optics.degree), sunRadius_(medium.sunAngularRadius),
-      angles_(medium.scatteringAngles)
+    : sun_(sun), moments_(moments), planet_{medium.planetRadius, medium.topOfAtmosphere}, profile_(medium, effort.profileTolerance),
+      folder_(profile_, optics, effort), wavelengths_(optics.wavelengths), blocks_(folder_.blocks()), scatterers_(folder_.scatterers()),
+      degree_(optics.degree), sunRadius_(medium.sunAngularRadius), angles_(medium.scatteringAngles)
 {
     const auto& depths = sun.opticalDepths();
     depth_ = toBlocks(depths.data(), depths.size() / wavelengths_, wavelengths_);
@@ -126,8 +126,7 @@ void FastGather::prepare(FastScratch& scratch) const
     for (const auto& node : ray.single.nodes) {
         const auto [row, y] = sun_.row(node.altitude);
         const double horizon = physics::horizonElevation(planet_, node.altitude), range = pi / 2 - horizon + sunRadius_;
-        scratch.sunRows.push_back({row, static_cast<float>(y), horizon,
-                                   1 / std::asinh(range / physics::SunTable::elevationScale)});
+        scratch.sunRows.push_back({row, static_cast<float>(y), horizon, 1 / std::asinh(range / physics::SunTable::elevationScale)});
     }
     if (!moments_)
         return;

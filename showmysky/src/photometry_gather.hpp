@@ -11,9 +11,9 @@ namespace showmysky {
 struct FastScratch {
     /// What a node needs that depends on its altitude alone.
     struct SunRow {
-        int row;                    ///< of the table of sunlight
-        float share;                ///< of the row above
-        double horizon, scale;      ///< rad; 1 / asinh(range / elevationScale)
+        int row;               ///< of the table of sunlight
+        float share;           ///< of the row above
+        double horizon, scale; ///< rad; 1 / asinh(range / elevationScale)
     };
     FastRay ray;
     unsigned prepared = 0; ///< version of the ray that these belong to
@@ -59,12 +59,12 @@ private:
     RayFolder folder_;
     int wavelengths_, blocks_, scatterers_, degree_;
     double sunRadius_;
-    lanes::Blocks depth_;            ///< [altitude][elevation][block], optical depth towards the Sun
-    lanes::Blocks field_;            ///< [altitude][sun][lm][block], as physics::Moments::values
-    lanes::Blocks lambda_;           ///< [scatterer][l][block]
-    std::vector<double> angles_;     ///< rad
-    lanes::Blocks phase_;            ///< [angle][scatterer][block]: ln p, or p itself where that is not finite somewhere
-    std::vector<bool> logarithmic_;  ///< [scatterer]
+    lanes::Blocks depth_;           ///< [altitude][elevation][block], optical depth towards the Sun
+    lanes::Blocks field_;           ///< [altitude][sun][lm][block], as physics::Moments::values
+    lanes::Blocks lambda_;          ///< [scatterer][l][block]
+    std::vector<double> angles_;    ///< rad
+    lanes::Blocks phase_;           ///< [angle][scatterer][block]: ln p, or p itself where that is not finite somewhere
+    std::vector<bool> logarithmic_; ///< [scatterer]
 };
 
 } // namespace showmysky

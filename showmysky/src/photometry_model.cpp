@@ -9,8 +9,8 @@ namespace showmysky {
 
 PhotometryModel::PhotometryModel(const std::string& directory)
     : model(sky::model::Model::open(directory)), medium(sky::model::readMedium(model)), profile(medium),
-      optics(sky::model::readOptics(model, medium)),
-      sun(profile, optics, medium.sunAngularRadius), onceAtMost(sky::model::scattersOnceAtMost(model.manifest())), evaluator(medium, profile, optics, sun),
+      optics(sky::model::readOptics(model, medium)), sun(profile, optics, medium.sunAngularRadius),
+      onceAtMost(sky::model::scattersOnceAtMost(model.manifest())), evaluator(medium, profile, optics, sun),
       luminanceWeights(sky::physics::luminanceWeights(medium.wavelengthsNm))
 {
     if (model.hasTable("moments")) {

@@ -19,10 +19,10 @@ struct PhotometryModel {
     sky::model::Model model;
     sky::physics::Medium medium;
     sky::physics::Profile profile;
-    sky::physics::Optics optics;                   ///< peaks truncated, as the moments were computed
-    sky::physics::SunTable sun;                    ///< through these optics
-    std::optional<sky::physics::Moments> moments;  ///< empty if the model has none
-    bool onceAtMost;                               ///< no light is scattered twice: no moments are missing
+    sky::physics::Optics optics;                    ///< peaks truncated, as the moments were computed
+    sky::physics::SunTable sun;                     ///< through these optics
+    std::optional<sky::physics::Moments> moments;   ///< empty if the model has none
+    bool onceAtMost;                                ///< no light is scattered twice: no moments are missing
     std::optional<sky::physics::Optics> trueOptics; ///< only where they differ: nothing truncated
     std::optional<sky::physics::SunTable> trueSun;
     sky::physics::SkyEvaluator evaluator;

@@ -37,8 +37,7 @@ void foldCells(const CellLoop& loop)
             for (int s = 0; s < loop.species; ++s)
                 tau += column[s] * loop.extinction[s * loop.blocks + b].v;
             // (1 - e^-tau) / tau; for small tau by its series, whose next term, tau^6 / 5040, is below 5e-8.
-            const Lanes thin =
-                1 - tau * (0.5f - tau * (1.f / 6 - tau * (1.f / 24 - tau * (1.f / 120 - tau * (1.f / 720)))));
+            const Lanes thin = 1 - tau * (0.5f - tau * (1.f / 6 - tau * (1.f / 24 - tau * (1.f / 120 - tau * (1.f / 720)))));
             const Lanes inverse = 1 / (tau < 0.25f ? all(1) : tau), left = exponential(-tau);
             const Lanes mean = tau < 0.25f ? thin : (1 - left) * inverse;
             // Attenuation moves the light's centre towards the eye by 1 / tau - 1 / (e^tau - 1) - 1/2 of the cell.
@@ -59,7 +58,7 @@ void foldCells(const CellLoop& loop)
 
 /// Where the cells stand between the nodes.
 struct Places {
-    const int* node;    ///< [cells], never decreasing
+    const int* node;            ///< [cells], never decreasing
     const float *from, *length; ///< [cells], begin and length of the cell in gaps between the nodes
 };
 
@@ -106,8 +105,8 @@ void foldDensities(int steps, const Block* argument, const Block* logarithmic, B
 } // namespace
 
 RayFolder::RayFolder(const physics::Profile& profile, const physics::Optics& optics, const Effort& effort)
-    : profile_(profile), effort_(effort), species_(optics.species), wavelengths_(optics.wavelengths), blocks_(blocksFor(optics.wavelengths)),
-      scatterers_(optics.scatterers)
+    : profile_(profile), effort_(effort), species_(optics.species), wavelengths_(optics.wavelengths),
+      blocks_(blocksFor(optics.wavelengths)), scatterers_(optics.scatterers)
 {
     const auto& shells = profile.shells();
     const std::size_t intervals = shells.size() - 1;
@@ -143,8 +142,8 @@ RayFolder::RayFolder(const physics::Profile& profile, const physics::Optics& opt
             above += b * most;
         }
         const bool exponential = below > 0 && above > 0;
-        extinction_.push_back({exponential ? below : std::max(below, above),
-                               exponential ? std::log(above / below) / (shells[k + 1] - shells[k]) : 0});
+        extinction_.push_back(
+            {exponential ? below : std::max(below, above), exponential ? std::log(above / below) / (shells[k + 1] - shells[k]) : 0});
     }
 }
 
@@ -167,10 +166,10 @@ void RayFolder::walk(FastRay& ray) const
             return e.slope != 0 ? e.low * std::exp(e.slope * (at - bottom)) : e.low;
         };
         const double before = ray.heights.back();
-        const physics::CellDivision division = physics::divided(
-            {from, to, length, profile_.steepness(interval) * std::abs(height - before), extinctionAt(0.5 * (before + height)) * (to - from),
-             extinctionAt(before) * (to - from)},
-            effort_.cell);
+        const physics::CellDivision division =
+            physics::divided({from, to, length, profile_.steepness(interval) * std::abs(height - before),
+                              extinctionAt(0.5 * (before + height)) * (to - from), extinctionAt(before) * (to - from)},
+                             effort_.cell);
         const int cells = division.count();
         for (int c = 1; c <= cells; ++c) {
             const double s = c == cells ? to : division.end(c);
@@ -283,9 +282,10 @@ void RayFolder::trace(const double altitude, const double mu, FastRay& ray) cons
     ray.light.resize(ray.cells);
     ray.depth.resize(ray.cells);
     ray.shares.resize(ray.cells);
-    const CellLoop loop{ray.cells, species_, scatterers(), blocks_, ray.columns.data(), scatterers_.data(),
-                        extinctions_.data(), scatterings_.data(), ray.centres.data(), ray.seen.data(), ray.shift.data(), ray.transmittance.data(),
-                        ray.light.data(), ray.depth.data()};
+    const CellLoop loop{ray.cells,          species_,           scatterers(),        blocks_,
+                        ray.columns.data(), scatterers_.data(), extinctions_.data(), scatterings_.data(),
+                        ray.centres.data(), ray.seen.data(),    ray.shift.data(),    ray.transmittance.data(),
+                        ray.light.data(),   ray.depth.data()};
     foldCells(loop);
 
     physics::NodeShares whole;

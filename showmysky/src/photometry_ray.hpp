@@ -30,22 +30,22 @@ struct NodeSet {
 struct FastRay {
     double altitude = -1, mu = 0; ///< where it starts; altitude -1: nothing is traced yet
     bool hitsGround = false;
-    NodeSet::Node ground{};              ///< the ray's end
-    lanes::Blocks transmittance;         ///< [block], to the ray's end
+    NodeSet::Node ground{};      ///< the ray's end
+    lanes::Blocks transmittance; ///< [block], to the ray's end
     NodeSet single, multiple;
-    unsigned version = 0;                ///< counts the rays traced
+    unsigned version = 0; ///< counts the rays traced
 
     int cells = 0;
-    std::vector<double> bounds, heights; ///< [cells + 1], distance and altitude
-    std::vector<int> intervals;          ///< [cells], of the profile
+    std::vector<double> bounds, heights;             ///< [cells + 1], distance and altitude
+    std::vector<int> intervals;                      ///< [cells], of the profile
     lanes::Blocks arguments, logarithmic, densities; ///< [cells][2 points][species] in a row
-    std::vector<float> columns;          ///< [cells][species], in units of RayFolder's scales
-    std::vector<float> centres;          ///< [cells][species], of the density, 0..1 of the cell
-    std::vector<float> light, depth;     ///< [cells], scattered there, and optical depth; sums over the wavelengths
-    lanes::Blocks seen, shift;           ///< [cells][block], mean transmittance; how attenuation moves the centre of light
-    std::vector<sky::physics::NodeShares> shares; ///< [cells]
+    std::vector<float> columns;                      ///< [cells][species], in units of RayFolder's scales
+    std::vector<float> centres;                      ///< [cells][species], of the density, 0..1 of the cell
+    std::vector<float> light, depth;                 ///< [cells], scattered there, and optical depth; sums over the wavelengths
+    lanes::Blocks seen, shift;                       ///< [cells][block], mean transmittance; how attenuation moves the centre of light
+    std::vector<sky::physics::NodeShares> shares;    ///< [cells]
     std::vector<double> measure, position;
-    std::vector<int> place;              ///< [cells], node before the cell
+    std::vector<int> place;                    ///< [cells], node before the cell
     std::vector<float> placeFrom, placeLength; ///< [cells], in gaps between nodes
 };
 
@@ -74,15 +74,15 @@ private:
     Effort effort_;
     int species_, wavelengths_, blocks_;
     std::vector<int> scatterers_;
-    std::vector<Segment> segments_;   ///< [interval][species], densities in units of their largest
+    std::vector<Segment> segments_; ///< [interval][species], densities in units of their largest
     /// Of an interval, the largest of the wavelengths: exponential between its ends, as if the air were one species; where one end has none,
     /// that of the other.
     struct Extinction {
         double low, slope; ///< m^-1
     };
     std::vector<Extinction> extinction_; ///< [interval]
-    lanes::Blocks extinctions_;       ///< [species][block], cross section times largest density
-    lanes::Blocks scatterings_;       ///< [scatterer][block]
+    lanes::Blocks extinctions_;          ///< [species][block], cross section times largest density
+    lanes::Blocks scatterings_;          ///< [scatterer][block]
 };
 
 } // namespace showmysky

@@ -36,18 +36,17 @@ constexpr int mostEclipseSize = 256;
 
 bool same(const Layers& a, const Layers& b)
 {
-    return a.zeroOrder == b.zeroOrder && a.singleScattering == b.singleScattering &&
-           a.multipleScattering == b.multipleScattering && a.lightPollution == b.lightPollution &&
-           a.hiddenScatterers == b.hiddenScatterers;
+    return a.zeroOrder == b.zeroOrder && a.singleScattering == b.singleScattering && a.multipleScattering == b.multipleScattering &&
+           a.lightPollution == b.lightPollution && a.hiddenScatterers == b.hiddenScatterers;
 }
 
 /// True if both ask for the same sky tables, the Moon aside.
 bool sameTables(const SceneSettings& a, const SceneSettings& b)
 {
-    return a.altitude == b.altitude && a.sun.zenithAngle == b.sun.zenithAngle &&
-           a.sun.angularRadius == b.sun.angularRadius && same(a.layers, b.layers) &&
-           a.lightPollutionLuminance == b.lightPollutionLuminance && a.cities == b.cities && a.source == b.source &&
-           a.onTheFlySingleScattering == b.onTheFlySingleScattering && a.solarSpectrumFactors == b.solarSpectrumFactors;
+    return a.altitude == b.altitude && a.sun.zenithAngle == b.sun.zenithAngle && a.sun.angularRadius == b.sun.angularRadius &&
+           same(a.layers, b.layers) && a.lightPollutionLuminance == b.lightPollutionLuminance && a.cities == b.cities &&
+           a.source == b.source && a.onTheFlySingleScattering == b.onTheFlySingleScattering &&
+           a.solarSpectrumFactors == b.solarSpectrumFactors;
 }
 
 /// True if the Moon takes the same light in both.
@@ -71,8 +70,8 @@ void require(bool fine, const std::string& message)
 
 const char* Scene::loadActivity(int step)
 {
-    static constexpr const char* names[loadSteps] = {"Reading the medium", "Reading the moments",
-                                                     "Tabulating phase functions", "Following sunlight"};
+    static constexpr const char* names[loadSteps] = {"Reading the medium", "Reading the moments", "Tabulating phase functions",
+                                                     "Following sunlight"};
     return names[step];
 }
 
@@ -92,10 +91,7 @@ void Scene::load(int step)
     }
 }
 
-double Scene::sunRadius() const
-{
-    return settings_.sun.angularRadius.value_or(atmosphere_->medium.sunAngularRadius);
-}
+double Scene::sunRadius() const { return settings_.sun.angularRadius.value_or(atmosphere_->medium.sunAngularRadius); }
 
 void Scene::followSunlight()
 {
@@ -105,16 +101,11 @@ void Scene::followSunlight()
     aerialSettings_.reset();
     ordinaryReady_ = false;
     tabulatedSunRadius_ = sunRadius();
-    sun_ = std::make_unique<physics::SunTable>(atmosphere_->profile, atmosphere_->optics, tabulatedSunRadius_,
-                                               sunAltitudes, sunElevations);
-    gather_ = std::make_unique<MomentGather>(*atmosphere_, *phases_, moments_ ? &*moments_ : nullptr, *sun_,
-                                             tabulatedSunRadius_);
+    sun_ = std::make_unique<physics::SunTable>(atmosphere_->profile, atmosphere_->optics, tabulatedSunRadius_, sunAltitudes, sunElevations);
+    gather_ = std::make_unique<MomentGather>(*atmosphere_, *phases_, moments_ ? &*moments_ : nullptr, *sun_, tabulatedSunRadius_);
 }
 
-bool Scene::onceAtMost() const
-{
-    return sky::model::scattersOnceAtMost(atmosphere_->model.manifest());
-}
+bool Scene::onceAtMost() const { return sky::model::scattersOnceAtMost(atmosphere_->model.manifest()); }
 
 bool Scene::hasSource(Source source) const
 {
@@ -128,10 +119,9 @@ std::string Scene::whyUnsupported(const SceneSettings& settings) const
         if (const std::string why = Glow::whyMissing(atmosphere_->model); !why.empty())
             return why;
     if (!hasSource(settings.source))
-        return settings.source == Source::moments
-                   ? "The model holds no moments; compute it anew, or choose the 4D textures as source."
-                   : "The model lacks the table `" + TextureLookup::missingTable(*atmosphere_) +
-                         "`; compute it with all textures, or choose the moments as source.";
+        return settings.source == Source::moments ? "The model holds no moments; compute it anew, or choose the 4D textures as source."
+                                                  : "The model lacks the table `" + TextureLookup::missingTable(*atmosphere_) +
+                                                        "`; compute it with all textures, or choose the moments as source.";
     if (settings.source == Source::textures) {
         if (settings.altitude > atmosphere_->planet().topOfAtmosphere)
             return "The 4D textures end at the top of the atmosphere; above it, choose the moments as source.";
@@ -148,10 +138,8 @@ std::string Scene::whyUnsupported(const SceneSettings& settings) const
 
 void Scene::setSettings(const SceneSettings& settings)
 {
-    require(std::isfinite(settings.altitude) && settings.altitude >= 0,
-            "The altitude must be a number of metres, at least 0.");
-    require(std::isfinite(settings.sun.azimuth) && std::isfinite(settings.moon.azimuth),
-            "An azimuth must be a number.");
+    require(std::isfinite(settings.altitude) && settings.altitude >= 0, "The altitude must be a number of metres, at least 0.");
+    require(std::isfinite(settings.sun.azimuth) && std::isfinite(settings.moon.azimuth), "An azimuth must be a number.");
     require(settings.sun.zenithAngle >= 0 && settings.sun.zenithAngle <= pi + 1e-9,
             "The zenith angle of the Sun must be between 0 and 180 degrees.");
     require(settings.moon.zenithAngle >= 0 && settings.moon.zenithAngle <= pi + 1e-9,
@@ -166,8 +154,7 @@ void Scene::setSettings(const SceneSettings& settings)
         eclipseState(settings); // throws if the Moon can't be there
     const auto& factors = settings.solarSpectrumFactors;
     require(factors.empty() || factors.size() == static_cast<std::size_t>(atmosphere_->wavelengths()),
-            "The solar spectrum needs one factor for each of the " + std::to_string(atmosphere_->wavelengths()) +
-                " wavelengths.");
+            "The solar spectrum needs one factor for each of the " + std::to_string(atmosphere_->wavelengths()) + " wavelengths.");
     require(std::all_of(factors.begin(), factors.end(), [](double f) { return std::isfinite(f) && f >= 0; }),
             "Factors on the solar spectrum must be numbers, at least 0.");
     for (const auto& name : settings.layers.hiddenScatterers) {
@@ -178,8 +165,8 @@ void Scene::setSettings(const SceneSettings& settings)
             std::string all;
             for (const auto& other : known)
                 all += (all.empty() ? "`" : ", `") + other + "`";
-            throw Error(ErrorKind::settings, "There is no scatterer `" + name + "` in the model; it has " +
-                                                 (all.empty() ? "none" : all) + ".");
+            throw Error(ErrorKind::settings,
+                        "There is no scatterer `" + name + "` in the model; it has " + (all.empty() ? "none" : all) + ".");
         }
     }
     const std::string why = whyUnsupported(settings);
@@ -210,8 +197,8 @@ EclipseState Scene::eclipseState(const SceneSettings& settings) const
 bool Scene::usesEclipseTable(const SceneSettings& settings) const
 {
     const auto& manifest = atmosphere_->model.manifest();
-    const bool sameOrders = settings.eclipseOrders == 0 ||
-                            (!manifest.allScatteringOrders && settings.eclipseOrders == manifest.scatteringOrders);
+    const bool sameOrders =
+        settings.eclipseOrders == 0 || (!manifest.allScatteringOrders && settings.eclipseOrders == manifest.scatteringOrders);
     if (settings.eclipse == EclipseMode::off || !settings.precomputedEclipse || settings.source != Source::textures ||
         !settings.layers.multipleScattering || settings.limbDarkening || !sameOrders ||
         !atmosphere_->model.hasTable(sky::model::eclipseTable))
@@ -228,8 +215,7 @@ LayersUsed Scene::layersUsed() const
     const auto& hidden = settings_.layers.hiddenScatterers;
     for (const int s : atmosphere_->optics.scatterers) {
         const auto& name = atmosphere_->medium.species[static_cast<std::size_t>(s)].name;
-        used.single.push_back(settings_.layers.singleScattering &&
-                              std::find(hidden.begin(), hidden.end(), name) == hidden.end());
+        used.single.push_back(settings_.layers.singleScattering && std::find(hidden.begin(), hidden.end(), name) == hidden.end());
     }
     return used;
 }
@@ -297,15 +283,14 @@ SkyView Scene::gathered(LayersUsed layers)
         if (!settings_.onTheFlySingleScattering)
             layers.single.assign(layers.single.size(), false);
     }
-    const bool gathers = layers.ground || layers.multiple ||
-                         std::find(layers.single.begin(), layers.single.end(), true) != layers.single.end();
+    const bool gathers =
+        layers.ground || layers.multiple || std::find(layers.single.begin(), layers.single.end(), true) != layers.single.end();
     if (settings_.source == Source::moments)
         return gathers ? gather_->gather(muSun, layers, weights) : SkyView{{}, std::vector<ViewTable>(layers.single.size())};
     SkyView view = lookup_->slice(settings_.altitude, muSun, looked, weights);
     if (gathers) {
         SkyView own = gather_->gather(muSun, layers, weights);
-        view.whole = sum(resampled(view.whole, drawnHalfViews, drawnAzimuths),
-                         resampled(own.whole, drawnHalfViews, drawnAzimuths));
+        view.whole = sum(resampled(view.whole, drawnHalfViews, drawnAzimuths), resampled(own.whole, drawnHalfViews, drawnAzimuths));
         for (std::size_t i = 0; i < own.scattered.size(); ++i)
             if (!own.scattered[i].empty())
                 view.scattered[i] = std::move(own.scattered[i]);
@@ -357,8 +342,8 @@ ViewTable Scene::glow() const
 {
     if (!settings_.layers.lightPollution || settings_.lightPollutionLuminance <= 0)
         return {};
-    ViewTable result = settings_.source == Source::textures ? glow_->fromTextures(settings_.altitude)
-                                                            : glow_->fromMoments(settings_.altitude);
+    ViewTable result =
+        settings_.source == Source::textures ? glow_->fromTextures(settings_.altitude) : glow_->fromMoments(settings_.altitude);
     for (Texel& texel : result.texels)
         for (float& value : texel)
             value *= static_cast<float>(settings_.lightPollutionLuminance);
@@ -398,9 +383,9 @@ bool Scene::aerialStep()
     if (!aerial_)
         aerial_ = std::make_unique<Aerial>(*atmosphere_, *phases_, moments_ ? &*moments_ : nullptr, *sun_);
     if (!aerialSettings_ || !sameTables(settings_, *aerialSettings_) || !sameEclipse(settings_, *aerialSettings_)) {
-        AerialScene scene{settings_.altitude, std::cos(settings_.sun.zenithAngle), layersUsed(),
-                          atmosphere_->luminanceWeights(settings_.solarSpectrumFactors), undimmedWhole(),
-                          settings_.layers.lightPollution};
+        AerialScene scene{settings_.altitude, std::cos(settings_.sun.zenithAngle),
+                          layersUsed(),       atmosphere_->luminanceWeights(settings_.solarSpectrumFactors),
+                          undimmedWhole(),    settings_.layers.lightPollution};
         if (settings_.eclipse == EclipseMode::on) {
             const auto sun = directionOf(settings_.sun.azimuth, settings_.sun.zenithAngle);
             scene.sunlight = [this](const std::array<float, 3>& point) { return eclipse_->lightAt(point); };
@@ -469,8 +454,7 @@ std::vector<Texel> Scene::sunColours(int count) const
 {
     // Radiance of a uniform disc: irradiance over its solid angle, seen through the air without scaling of sharp peaks.
     const auto& medium = atmosphere_->medium;
-    const double radius = sunRadius(), solidAngle = 2 * pi * (1 - std::cos(radius)),
-                 centre = pi / 2 - settings_.sun.zenithAngle;
+    const double radius = sunRadius(), solidAngle = 2 * pi * (1 - std::cos(radius)), centre = pi / 2 - settings_.sun.zenithAngle;
     const double horizon = physics::horizonElevation(atmosphere_->planet(), settings_.altitude);
     const auto weights = atmosphere_->luminanceWeights(settings_.solarSpectrumFactors);
     physics::RayTracer tracer(atmosphere_->profile, atmosphere_->optics, 2);
@@ -487,8 +471,7 @@ std::vector<Texel> Scene::sunColours(int count) const
             for (std::size_t s = 0; s < columns.size(); ++s)
                 depth += columns[s] * medium.species[s].extinctionCrossSection[w];
             for (std::size_t c = 0; c < 4; ++c)
-                result[static_cast<std::size_t>(k)][c] +=
-                    weights[w][c] * static_cast<float>(std::exp(-depth) / solidAngle);
+                result[static_cast<std::size_t>(k)][c] += weights[w][c] * static_cast<float>(std::exp(-depth) / solidAngle);
         }
     }
     return result;
@@ -517,8 +500,7 @@ std::vector<double> Scene::spectralRadiance(const std::array<double, 3>& directi
         return result;
     const auto sunDirection = directionOf(settings_.sun.azimuth, settings_.sun.zenithAngle);
     const double muSun = sunDirection[2];
-    const double nu =
-        std::clamp(view[0] * sunDirection[0] + view[1] * sunDirection[1] + view[2] * sunDirection[2], -1., 1.);
+    const double nu = std::clamp(view[0] * sunDirection[0] + view[1] * sunDirection[1] + view[2] * sunDirection[2], -1., 1.);
     const LayersUsed layers = layersUsed();
     physics::RayTracer tracer(atmosphere_->profile, optics);
     const physics::SkyEvaluator evaluator(medium, atmosphere_->profile, optics, *sun_);
@@ -563,8 +545,8 @@ std::vector<double> Scene::spectralRadiance(const std::array<double, 3>& directi
         else
             std::fill(visible.begin(), visible.end(), 1.);
         for (std::size_t w = 0; w < wavelengths; ++w)
-            result[w] += ray.groundTransmittance[w] * medium.groundAlbedo[w] / pi *
-                         (visible[w] * direct[w] + ratios.ground[w] * diffuse[w]);
+            result[w] +=
+                ray.groundTransmittance[w] * medium.groundAlbedo[w] / pi * (visible[w] * direct[w] + ratios.ground[w] * diffuse[w]);
     }
     if (layers.multiple && moments_) {
         auto coarse = tracer.trace(entry->altitude, entry->mu, parts.multipleNodes, ground, physics::NodesFor::Field);

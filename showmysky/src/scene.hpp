@@ -2,8 +2,8 @@
 // All that is computed without OpenGL: a model, settings, and the sky tables and spectra that follow from both.
 
 #include "aerial.hpp"
-#include "eclipse_sky.hpp"
 #include "cities.hpp"
+#include "eclipse_sky.hpp"
 #include "glow.hpp"
 #include "illuminance.hpp"
 #include "moment_gather.hpp"
@@ -79,10 +79,10 @@ private:
     double tabulatedSunRadius_ = -1;
     std::unique_ptr<MomentGather> gather_;
     std::unique_ptr<TextureLookup> lookup_;
-    std::unique_ptr<Glow> glow_; ///< once light pollution has been asked for
+    std::unique_ptr<Glow> glow_;     ///< once light pollution has been asked for
     std::unique_ptr<Cities> cities_; ///< once there are some
     CityLight cityView_;
-    std::unique_ptr<Aerial> aerial_;             ///< once a host has asked for it
+    std::unique_ptr<Aerial> aerial_;              ///< once a host has asked for it
     std::optional<SceneSettings> aerialSettings_; ///< that it is for
     SceneSettings settings_;
     std::unique_ptr<EclipseSky> eclipse_; ///< once an eclipse has been asked for

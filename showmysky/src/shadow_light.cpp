@@ -32,8 +32,7 @@ ShadowLight::ShadowLight(const physics::Shadow& shadow, const double reach, cons
             // A point at that distance from the axis: the axis' own place, then aside.
             std::array<double, 3> point{};
             for (std::size_t i = 0; i < 3; ++i)
-                point[i] = (shadow.axis[0] + far) * shadow.across[0][i] + shadow.axis[1] * shadow.across[1][i] +
-                           depth * shadow.along[i];
+                point[i] = (shadow.axis[0] + far) * shadow.across[0][i] + shadow.axis[1] * shadow.across[1][i] + depth * shadow.along[i];
             const auto discs = shadow.discs(point);
             Texel& texel = table_[static_cast<std::size_t>(d * places + k)];
             if (!law) {
@@ -58,8 +57,7 @@ Texel ShadowLight::at(const std::array<float, 3>& point) const
     if (far >= outer)
         return {1, 1, 1, 1};
     const float level = std::clamp((depth - nearest_) * perDepth_, 0.f, static_cast<float>(depths - 1) - 1e-3f);
-    const float place =
-        std::sqrt(std::max(0.f, far - inner) / (outer - inner)) * (static_cast<float>(places - 1) - 1e-3f);
+    const float place = std::sqrt(std::max(0.f, far - inner) / (outer - inner)) * (static_cast<float>(places - 1) - 1e-3f);
     const int d = static_cast<int>(level), k = static_cast<int>(place);
     const float y = level - static_cast<float>(d), x = place - static_cast<float>(k);
     const Texel *low = &table_[static_cast<std::size_t>(d * places + k)], *high = low + places;

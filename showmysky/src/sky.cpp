@@ -23,10 +23,10 @@ struct Sky::Inside {
 
         bool operator==(const Drawn& other) const
         {
-            return version == other.version && width == other.width && height == other.height &&
-                   reduction == other.reduction && camera.projection == other.camera.projection &&
-                   camera.fieldOfView == other.camera.fieldOfView && camera.yaw == other.camera.yaw &&
-                   camera.pitch == other.camera.pitch && camera.directionTexture == other.camera.directionTexture;
+            return version == other.version && width == other.width && height == other.height && reduction == other.reduction &&
+                   camera.projection == other.camera.projection && camera.fieldOfView == other.camera.fieldOfView &&
+                   camera.yaw == other.camera.yaw && camera.pitch == other.camera.pitch &&
+                   camera.directionTexture == other.camera.directionTexture;
         }
     };
 
@@ -52,9 +52,8 @@ struct Sky::Inside {
             throw Error(ErrorKind::other, "Nothing has been drawn yet.");
         const auto& size = painter->luminance().size();
         if (x < 0 || y < 0 || x >= size.width || y >= size.height)
-            throw Error(ErrorKind::settings, "There is no pixel " + std::to_string(x) + ", " + std::to_string(y) +
-                                                 " in a picture of " + std::to_string(size.width) + " x " +
-                                                 std::to_string(size.height) + ".");
+            throw Error(ErrorKind::settings, "There is no pixel " + std::to_string(x) + ", " + std::to_string(y) + " in a picture of " +
+                                                 std::to_string(size.width) + " x " + std::to_string(size.height) + ".");
     }
     void requireDrawable(const Camera& camera, int width, int height, int reduction) const
     {
@@ -113,8 +112,7 @@ struct Sky::Inside {
         }
         const auto& size = painter->luminance().size();
         const double scale = double(painter->pictureWidth()) / size.width;
-        return builtInDirection(drawn.camera, painter->pictureWidth(), painter->pictureHeight(), (x + 0.5) * scale,
-                                (y + 0.5) * scale);
+        return builtInDirection(drawn.camera, painter->pictureWidth(), painter->pictureHeight(), (x + 0.5) * scale, (y + 0.5) * scale);
     }
 
     Options options;
@@ -151,8 +149,8 @@ Progress Sky::loadStep()
         } else {
             const gl::StateGuard guard(in.context.api());
             const auto& phases = in.scene.phases();
-            in.painter = std::make_unique<Painter>(in.context.api(), in.scene.atmosphere().scatterers(),
-                                                   phases.texels(Painter::phaseWidth), in.options);
+            in.painter = std::make_unique<Painter>(in.context.api(), in.scene.atmosphere().scatterers(), phases.texels(Painter::phaseWidth),
+                                                   in.options);
             in.loaded = true;
             if (in.options.log)
                 for (const auto& warning : in.scene.atmosphere().model.manifest().warnings)
@@ -171,10 +169,7 @@ void Sky::loadAll()
     }
 }
 
-bool Sky::loaded() const
-{
-    return inside_->loaded;
-}
+bool Sky::loaded() const { return inside_->loaded; }
 
 const std::vector<double>& Sky::wavelengths() const
 {
@@ -242,10 +237,7 @@ void Sky::setSettings(const SceneSettings& settings)
     });
 }
 
-const SceneSettings& Sky::settings() const
-{
-    return inside_->scene.settings();
-}
+const SceneSettings& Sky::settings() const { return inside_->scene.settings(); }
 
 EclipseState Sky::eclipseState(const SceneSettings& settings) const
 {
@@ -305,14 +297,8 @@ unsigned Sky::luminanceTexture() const
     return inside_->painter && inside_->painter->hasPicture() ? inside_->painter->luminance().name() : 0;
 }
 
-int Sky::width() const
-{
-    return luminanceTexture() ? inside_->painter->luminance().size().width : 0;
-}
-int Sky::height() const
-{
-    return luminanceTexture() ? inside_->painter->luminance().size().height : 0;
-}
+int Sky::width() const { return luminanceTexture() ? inside_->painter->luminance().size().width : 0; }
+int Sky::height() const { return luminanceTexture() ? inside_->painter->luminance().size().height : 0; }
 
 std::vector<Luminance> Sky::readLuminance() const
 {
@@ -377,8 +363,8 @@ void Sky::bindShaderFunctions(unsigned program, unsigned firstTextureUnit)
             const gl::StateGuard guard(in.context.api());
             in.uploadIfReady();
             if (!in.hostFunctions)
-                in.hostFunctions = std::make_unique<HostFunctions>(in.context.api(), in.scene.atmosphere().scatterers(),
-                                                                   in.painter->skyTables().format());
+                in.hostFunctions =
+                    std::make_unique<HostFunctions>(in.context.api(), in.scene.atmosphere().scatterers(), in.painter->skyTables().format());
             while (!in.prepareHostFunctions()) {
             }
         }
@@ -386,23 +372,14 @@ void Sky::bindShaderFunctions(unsigned program, unsigned firstTextureUnit)
     });
 }
 
-unsigned Sky::program() const
-{
-    return inside_->painter ? inside_->painter->program() : 0;
-}
+unsigned Sky::program() const { return inside_->painter ? inside_->painter->program() : 0; }
 std::size_t Sky::textureBytes() const
 {
     const auto& in = *inside_;
     return (in.painter ? in.painter->textureBytes() : 0) + (in.hostFunctions ? in.hostFunctions->textureBytes() : 0);
 }
-int Sky::fetchesPerPixel() const
-{
-    return inside_->painter ? inside_->painter->fetchesPerPixel() : 0;
-}
+int Sky::fetchesPerPixel() const { return inside_->painter ? inside_->painter->fetchesPerPixel() : 0; }
 
-void Sky::abandonContext()
-{
-    inside_->context.abandon();
-}
+void Sky::abandonContext() { inside_->context.abandon(); }
 
 } // namespace showmysky

@@ -24,10 +24,7 @@ double inverse(F&& f, double value, double low, double high)
 
 } // namespace
 
-double SkyAxes::range(const int half) const
-{
-    return half == 0 ? pi / 2 - horizon : pi / 2 + horizon;
-}
+double SkyAxes::range(const int half) const { return half == 0 ? pi / 2 - horizon : pi / 2 + horizon; }
 
 SkyAxes::Focus SkyAxes::focus(const int half) const
 {
@@ -53,9 +50,7 @@ double SkyAxes::viewCoordinate(const double elevation, const int half) const
 
 double SkyAxes::elevationAt(const double coordinate, const int half) const
 {
-    const auto at = [&](double fromHorizon) {
-        return viewCoordinate(horizon + (half == 0 ? 1 : -1) * fromHorizon, half);
-    };
+    const auto at = [&](double fromHorizon) { return viewCoordinate(horizon + (half == 0 ? 1 : -1) * fromHorizon, half); };
     const double fromHorizon = inverse(at, coordinate, 0, range(half));
     return horizon + (half == 0 ? fromHorizon : -fromHorizon);
 }
@@ -84,8 +79,7 @@ double SkyAxes::azimuthAt(const double coordinate) const
     if (!eclipse)
         return pi * coordinate;
     const double side = coordinate < 0.5 ? -1 : 1;
-    return side * inverse([&](double angle) { return std::abs(2 * azimuthCoordinate(angle) - 1); },
-                          std::abs(2 * coordinate - 1), 0, pi);
+    return side * inverse([&](double angle) { return std::abs(2 * azimuthCoordinate(angle) - 1); }, std::abs(2 * coordinate - 1), 0, pi);
 }
 
 } // namespace showmysky

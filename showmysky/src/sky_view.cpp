@@ -26,8 +26,7 @@ Content contentOf(const std::vector<Texel>& texels)
 /// Catmull-Rom between `b` and `c`.
 std::array<float, 4> cubicWeights(float t)
 {
-    return {0.5f * t * (-1 + t * (2 - t)), 1 + 0.5f * t * t * (-5 + 3 * t), 0.5f * t * (1 + t * (4 - 3 * t)),
-            0.5f * t * t * (t - 1)};
+    return {0.5f * t * (-1 + t * (2 - t)), 1 + 0.5f * t * t * (-5 + 3 * t), 0.5f * t * (1 + t * (4 - 3 * t)), 0.5f * t * t * (t - 1)};
 }
 
 float interpolate(float a, float b, float c, float d, float t, const std::array<float, 4>& w)
@@ -38,8 +37,8 @@ float interpolate(float a, float b, float c, float d, float t, const std::array<
 }
 
 /// Interpolates `count` values (or their logarithms), `stride` apart, to `newCount`.
-void resampleLine(const Texel* from, int count, std::size_t stride, Texel* to, int newCount, std::size_t newStride,
-                  End end, bool logarithms)
+void resampleLine(const Texel* from, int count, std::size_t stride, Texel* to, int newCount, std::size_t newStride, End end,
+                  bool logarithms)
 {
     const auto at = [&](int i) -> Texel {
         if (end == End::mirror)
@@ -51,9 +50,7 @@ void resampleLine(const Texel* from, int count, std::size_t stride, Texel* to, i
         const Texel& inner = from[static_cast<std::size_t>(i < 0 ? 1 : count - 2) * stride];
         Texel result;
         for (std::size_t k = 0; k < 4; ++k)
-            result[k] = logarithms     ? 2 * edge[k] - inner[k]
-                        : inner[k] > 0 ? std::min(edge[k] / inner[k], 1e3f) * edge[k]
-                                       : edge[k];
+            result[k] = logarithms ? 2 * edge[k] - inner[k] : inner[k] > 0 ? std::min(edge[k] / inner[k], 1e3f) * edge[k] : edge[k];
         return result;
     };
     for (int i = 0; i < newCount; ++i) {
@@ -92,11 +89,11 @@ ViewTable resampled(const ViewTable& table, int halfViews, int azimuths)
                     value = std::log2(value);
         ViewTable wide(table.halfViews, azimuths);
         for (int v = 0; v < table.halfViews; ++v)
-            resampleLine(&from[static_cast<std::size_t>(v * table.azimuths)], table.azimuths, 1, &wide.at(v, 0),
-                         azimuths, 1, End::mirror, logarithms);
+            resampleLine(&from[static_cast<std::size_t>(v * table.azimuths)], table.azimuths, 1, &wide.at(v, 0), azimuths, 1, End::mirror,
+                         logarithms);
         for (int a = 0; a < azimuths; ++a)
-            resampleLine(&wide.at(0, a), table.halfViews, stride, &result.at(half * halfViews, a), halfViews, stride,
-                         End::clamp, logarithms);
+            resampleLine(&wide.at(0, a), table.halfViews, stride, &result.at(half * halfViews, a), halfViews, stride, End::clamp,
+                         logarithms);
         if (logarithms)
             for (std::size_t i = 0; i < static_cast<std::size_t>(halfViews) * stride; ++i)
                 for (float& value : result.texels[static_cast<std::size_t>(half * halfViews) * stride + i])

@@ -30,7 +30,7 @@ struct ViewTable {
 struct SkyView {
     ViewTable whole;                  ///< multiple scattering and the ground: as it is seen
     std::vector<ViewTable> scattered; ///< [scatterer]: to be multiplied by its phase function; empty if hidden
-    bool eclipse = false; ///< tables stand as SkyAxes has them in an eclipse and are drawn as they are
+    bool eclipse = false;             ///< tables stand as SkyAxes has them in an eclipse and are drawn as they are
 };
 
 /// Size of the tables on the GPU: fine enough for linear interpolation.

@@ -36,8 +36,7 @@ bool TextureLookup::anyLuminance(const Atmosphere& atmosphere)
 {
     const auto names = tableNames(atmosphere);
     return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
-        return atmosphere.model.hasTable(name) &&
-               atmosphere.model.table(name).channels == sky::model::Channels::Luminance;
+        return atmosphere.model.hasTable(name) && atmosphere.model.table(name).channels == sky::model::Channels::Luminance;
     });
 }
 
@@ -58,9 +57,7 @@ ViewTable TextureLookup::look(const std::string& name, const int scatterer, cons
     auto perRadiance = weights; // the tables are of true radiance
     for (std::size_t w = 0; w < wavelengths; ++w)
         for (float& weight : perRadiance[w])
-            weight = atmosphere_.medium.solarIrradiance[w] > 0
-                         ? weight / static_cast<float>(atmosphere_.medium.solarIrradiance[w])
-                         : 0.f;
+            weight = atmosphere_.medium.solarIrradiance[w] > 0 ? weight / static_cast<float>(atmosphere_.medium.solarIrradiance[w]) : 0.f;
     const auto& from = table(name);
     const auto values = from.slice(altitude, elevation);
     const bool luminance = from.table().channels == sky::model::Channels::Luminance;
@@ -74,9 +71,9 @@ ViewTable TextureLookup::look(const std::string& name, const int scatterer, cons
         double divisor = 1;
         if (scatterer >= 0) {
             const double mu = sines[t / azimuths];
-            const double nu = mu * muSun + std::sqrt(std::max(0., (1 - mu * mu) * (1 - muSun * muSun))) *
-                                               std::cos(3.14159265358979323846 * static_cast<double>(t % azimuths) /
-                                                        static_cast<double>(azimuths - 1));
+            const double nu =
+                mu * muSun + std::sqrt(std::max(0., (1 - mu * mu) * (1 - muSun * muSun))) *
+                                 std::cos(3.14159265358979323846 * static_cast<double>(t % azimuths) / static_cast<double>(azimuths - 1));
             if (withPhase)
                 divisor = std::max(phases_.drawn(scatterer, nu), 1e-30);
             else if (!luminance)
@@ -105,8 +102,7 @@ SkyView TextureLookup::slice(double altitude, double muSun, const LayersUsed& la
         result.whole = look(multipleScattering, -1, altitude, muSun, weights);
     for (int i = 0; i < atmosphere_.scatterers(); ++i)
         if (layers.single[static_cast<std::size_t>(i)])
-            result.scattered[static_cast<std::size_t>(i)] =
-                look(atmosphere_.singleScatteringTable(i), i, altitude, muSun, weights);
+            result.scattered[static_cast<std::size_t>(i)] = look(atmosphere_.singleScatteringTable(i), i, altitude, muSun, weights);
     return result;
 }
 

@@ -21,8 +21,7 @@ std::array<Vector, 3> cameraAxes(const Camera& camera)
 {
     const double sine = std::sin(camera.pitch), cosine = std::cos(camera.pitch);
     const double north = std::cos(camera.yaw), west = -std::sin(camera.yaw);
-    return {Vector{west, -north, 0}, Vector{-sine * north, -sine * west, cosine},
-            Vector{cosine * north, cosine * west, sine}};
+    return {Vector{west, -north, 0}, Vector{-sine * north, -sine * west, cosine}, Vector{cosine * north, cosine * west, sine}};
 }
 
 std::array<double, 2> projectionScale(const Camera& camera, double width, double height)
@@ -30,9 +29,8 @@ std::array<double, 2> projectionScale(const Camera& camera, double width, double
     const bool perspective = camera.projection == Projection::perspective;
     const double most = perspective ? pi : 2 * pi + 1e-9;
     if (!(camera.fieldOfView > 0) || !(perspective ? camera.fieldOfView < most : camera.fieldOfView <= most))
-        throw Error(ErrorKind::settings, perspective
-                                             ? "The field of view of a perspective must be between 0 and 180 degrees."
-                                             : "The field of view must be above 0 and at most 360 degrees.");
+        throw Error(ErrorKind::settings, perspective ? "The field of view of a perspective must be between 0 and 180 degrees."
+                                                     : "The field of view must be above 0 and at most 360 degrees.");
     const double x = perspective ? std::tan(camera.fieldOfView / 2) : camera.fieldOfView / 2;
     return {x, x * height / width};
 }

@@ -60,10 +60,7 @@ TEST_CASE("corpus: each malformed description gets its message")
     CHECK(count > 90);
 }
 
-TEST_CASE("corpus: what the malformed descriptions were made from is accepted")
-{
-    CHECK(messageFor(corpus / "valid.atmo").empty());
-}
+TEST_CASE("corpus: what the malformed descriptions were made from is accepted") { CHECK(messageFor(corpus / "valid.atmo").empty()); }
 
 TEST_CASE("corpus: an error says that the input must change")
 {

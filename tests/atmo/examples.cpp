@@ -14,15 +14,9 @@ namespace {
 
 const std::filesystem::path examples = std::filesystem::path(SKY_SOURCE_DIR) / "examples";
 
-Description example(const std::string& name)
-{
-    return parseFile(examples / (name + ".atmo"));
-}
+Description example(const std::string& name) { return parseFile(examples / (name + ".atmo")); }
 
-double sum(const Spectrum& values)
-{
-    return std::accumulate(values.begin(), values.end(), 0.0);
-}
+double sum(const Spectrum& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
 } // namespace
 

@@ -47,17 +47,10 @@ TEST_CASE("fuzz: so is every damaged seed")
         for (std::size_t damage = below(4) + 1; damage > 0 && !text.empty(); --damage) {
             const std::size_t at = below(text.size()), length = std::min<std::size_t>(below(40) + 1, text.size() - at);
             switch (below(4)) {
-            case 0:
-                text[at] = static_cast<char>(below(256));
-                break;
-            case 1:
-                text.erase(at, length);
-                break;
-            case 2:
-                text.insert(below(text.size()), text.substr(at, length));
-                break;
-            default:
-                text.insert(at, 1, ":{}`\"#\n,=[]"[below(11)]);
+            case 0: text[at] = static_cast<char>(below(256)); break;
+            case 1: text.erase(at, length); break;
+            case 2: text.insert(below(text.size()), text.substr(at, length)); break;
+            default: text.insert(at, 1, ":{}`\"#\n,=[]"[below(11)]);
             }
         }
         INFO(text);

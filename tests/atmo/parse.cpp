@@ -28,8 +28,7 @@ double quantity(const std::string& text, Dimension dimension)
 TEST_CASE("quantities: every unit of every dimension")
 {
     const std::vector<std::pair<std::string, double>> lengths{
-        {"nm", 1e-9}, {"um", 1e-6}, {"mm", 1e-3}, {"m", 1},
-        {"km", 1e3},  {"Mm", 1e6},  {"Gm", 1e9},  {"AU", 149597870700.0},
+        {"nm", 1e-9}, {"um", 1e-6}, {"mm", 1e-3}, {"m", 1}, {"km", 1e3}, {"Mm", 1e6}, {"Gm", 1e9}, {"AU", 149597870700.0},
     };
     for (const auto& [unit, metres] : lengths) {
         INFO(unit);
@@ -65,8 +64,7 @@ TEST_CASE("quantities: powers of ten lose nothing")
     CHECK(quantity("360 nm", Dimension::Length) == 360e-9);
     CHECK(quantity("0.3 nm", Dimension::Length) == 0.3e-9);
     CHECK(sample::parse(sample::text).wavelengths == Wavelengths{400, 700, 4});
-    CHECK(sample::parse(sample::with("min=400nm, max=700nm", "max = 0.7 um , min = 0.4um")).wavelengths ==
-          Wavelengths{400, 700, 4});
+    CHECK(sample::parse(sample::with("min=400nm, max=700nm", "max = 0.7 um , min = 0.4um")).wavelengths == Wavelengths{400, 700, 4});
 }
 
 TEST_CASE("keys: every length and its limits")
@@ -202,8 +200,7 @@ TEST_CASE("keys: their order is free")
     const std::string wavelengths = "wavelengths: min=400nm, max=700nm, count=4\n";
     CHECK(sample::parse(sample::with(wavelengths, "") + wavelengths) == plain);
     const std::size_t species = sample::text.find("Scatterer"), second = sample::text.find("Earth radius");
-    CHECK(sample::parse("version: 6\n" + sample::text.substr(species) +
-                        sample::text.substr(second, species - second)) == plain);
+    CHECK(sample::parse("version: 6\n" + sample::text.substr(species) + sample::text.substr(second, species - second)) == plain);
 }
 
 TEST_CASE("code blocks: kept to the letter, with the line where they begin")

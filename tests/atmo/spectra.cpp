@@ -14,28 +14,20 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-TabulatedSpectrum table(const std::string& text)
-{
-    return TabulatedSpectrum(Source(text, "table.csv"));
-}
+TabulatedSpectrum table(const std::string& text) { return TabulatedSpectrum(Source(text, "table.csv")); }
 
 // The ground albedo of the sample (400, 500, 600, 700 nm) when given as `value`.
 Spectrum albedo(const std::string& value, const ParseOptions& options = {})
 {
-    return sample::parse(sample::with("ground albedo: 0.1, 0.2, 0.3, 0.4", "ground albedo: " + value), options)
-        .groundAlbedo;
+    return sample::parse(sample::with("ground albedo: 0.1, 0.2, 0.3, 0.4", "ground albedo: " + value), options).groundAlbedo;
 }
 
 // A folder for files that a test writes, removed at its end.
 struct Folder {
-    std::filesystem::path path =
-        std::filesystem::temp_directory_path() / ("sky-atmo-" + std::to_string(std::random_device()()));
+    std::filesystem::path path = std::filesystem::temp_directory_path() / ("sky-atmo-" + std::to_string(std::random_device()()));
     Folder() { std::filesystem::create_directories(path); }
     ~Folder() { std::filesystem::remove_all(path); }
-    void write(const std::string& name, const std::string& text) const
-    {
-        std::ofstream(path / name, std::ios::binary) << text;
-    }
+    void write(const std::string& name, const std::string& text) const { std::ofstream(path / name, std::ios::binary) << text; }
 };
 
 void checkEqual(const Spectrum& values, const Spectrum& expected)
@@ -140,10 +132,9 @@ TEST_CASE("spectrum entries: weighted files add up, relative to the description"
     std::filesystem::create_directory(folder.path / "my spectra");
     folder.write("my spectra/grass #1.csv", "300,0.5\n800,0.5\n");
     folder.write("my spectra/snow.csv", "300,1\n800,1\n");
-    folder.write("test.atmo",
-                 sample::with("ground albedo: 0.1, 0.2, 0.3, 0.4",
-                              "ground albedo: Weighted file 0.8 \"my spectra/grass #1.csv\" # quoted, for its #\n"
-                              "ground albedo: weighted file 2e-1 my spectra/snow.csv # blanks need no quotes"));
+    folder.write("test.atmo", sample::with("ground albedo: 0.1, 0.2, 0.3, 0.4",
+                                           "ground albedo: Weighted file 0.8 \"my spectra/grass #1.csv\" # quoted, for its #\n"
+                                           "ground albedo: weighted file 2e-1 my spectra/snow.csv # blanks need no quotes"));
     checkEqual(parseFile(folder.path / "test.atmo").groundAlbedo, {0.6, 0.6, 0.6, 0.6});
 }
 

@@ -38,8 +38,7 @@ public:
             d.lightPollutionRadiance = spectrum(d, 1e-3);
         for (int i = whole(0, 3); i > 0; --i)
             d.scatterers.push_back({name(), code(), code(), static_cast<PhaseFunctionType>(whole(0, 2)),
-                                    coin() ? 0 : logUniform(1e-40, 1e-3), coin() ? -0.0 : uniform(-20, 20),
-                                    spectrum(d, 1), coin()});
+                                    coin() ? 0 : logUniform(1e-40, 1e-3), coin() ? -0.0 : uniform(-20, 20), spectrum(d, 1), coin()});
         for (int i = whole(0, 3); i > 0; --i)
             d.absorbers.push_back({name(), code(), spectrum(d, 1e-20)});
         return d;
@@ -71,23 +70,9 @@ private:
     CodeBlock code()
     {
         // Everything that could disturb a reader: fences short of one sign, our own signs, blank first and last lines.
-        static const std::vector<std::string> pieces{"return 1.0;",
-                                                     "\n",
-                                                     "\n\n",
-                                                     " ",
-                                                     "\t",
-                                                     "``",
-                                                     "` `",
-                                                     "{",
-                                                     "}",
-                                                     "#",
-                                                     ":",
-                                                     "\"",
-                                                     "// H\u00F6he \u221D e^-z",
-                                                     "\xFC\xFF",
-                                                     "/* version: 6 */",
-                                                     "\\",
-                                                     "file x"};
+        static const std::vector<std::string> pieces{
+            "return 1.0;",      "\n", "\n\n",  " ", "\t", "``", "` `", "{", "}", "#", ":", "\"", "// H\u00F6he \u221D e^-z", "\xFC\xFF",
+            "/* version: 6 */", "\\", "file x"};
         CodeBlock block;
         for (int i = whole(0, 12); i > 0; --i)
             block.text += pieces[static_cast<std::size_t>(whole(0, static_cast<int>(pieces.size()) - 1))];

@@ -109,8 +109,7 @@ TEST_CASE_METHOD(Desk, "each option reaches the solver")
     CHECK_THAT(computed({"--texture-save-precision", "24"}), Contains("bits=24"));
     CHECK_THAT(computed({"--texture-save-precision=1"}), Contains("bits=1 "));
     CHECK_THAT(computed({"--only", "moments,single"}), Contains("parts moments single\n"));
-    CHECK_THAT(computed({"--skip", "moments,single,multiple,eclipsed"}),
-               Contains("parts transmittance irradiance light-pollution\n"));
+    CHECK_THAT(computed({"--skip", "moments,single,multiple,eclipsed"}), Contains("parts transmittance irradiance light-pollution\n"));
     CHECK_THAT(computed({"--no-eds-tex"}), Contains("multiple light-pollution\n"));
     CHECK_THAT(computed({"--no-save-tex"}), Contains("parts moments\n"));
     CHECK_THAT(computed({"--altitudes", "2..5"}), Contains("layers=2..5"));
@@ -152,8 +151,7 @@ TEST_CASE_METHOD(Desk, "a misspelt option or value is refused with a suggestion"
     CHECK_THAT(refused({"good.atmo", "--texture-precision=3", "--out-dir", "x"}), Contains("`--texture-precision`"));
     CHECK_THAT(refused({"good.atmo", "--out-dir", "x", "--only", "momets"}), Contains("Did you mean `moments`?"));
     CHECK_THAT(refused({"good.atmo", "--out-dir", "x", "--quality", "fien"}), Contains("Did you mean `fine`?"));
-    CHECK_THAT(refused({"docter", "--out-dir", "x", "--gl", "elg"}),
-               Contains("auto, egl, osmesa. Did you mean `egl`?"));
+    CHECK_THAT(refused({"docter", "--out-dir", "x", "--gl", "elg"}), Contains("auto, egl, osmesa. Did you mean `egl`?"));
     CHECK_THAT(refused({"good.atmo", "--xyzzy"}), !Contains("Did you mean"));
 }
 
@@ -163,8 +161,7 @@ TEST_CASE_METHOD(Desk, "missing and surplus words are refused")
     CHECK_THAT(refused({"good.atmo"}), Contains("Add --out-dir DIR."));
     CHECK_THAT(refused({"good.atmo", "--out-dir"}), Contains("--out-dir needs a value."));
     CHECK_THAT(refused({"good.atmo", "other.atmo", "--out-dir", "x"}), Contains("`good.atmo` and `other.atmo`"));
-    CHECK_THAT(refused({"good.atmo", "--out-dir", "x", "--out-dir", "y"}),
-               Contains("--out-dir was given more than once"));
+    CHECK_THAT(refused({"good.atmo", "--out-dir", "x", "--out-dir", "y"}), Contains("--out-dir was given more than once"));
     CHECK_THAT(refused({"none.atmo", "--out-dir", "x"}), Contains("There is no file `none.atmo`."));
     CHECK_THAT(refused({".", "--out-dir", "x"}), Contains("is a directory"));
     CHECK_THAT(refused({"doctor", "good.atmo"}), Contains("`doctor` takes no description"));
@@ -175,8 +172,7 @@ TEST_CASE_METHOD(Desk, "missing and surplus words are refused")
 TEST_CASE_METHOD(Desk, "values out of range are refused with the range")
 {
     for (const char* bits : {"0", "25", "x", "1.5", ""})
-        CHECK_THAT(refused({"good.atmo", "--out-dir", "x", "--texture-save-precision", bits}),
-                   Contains("from 1 to 24"));
+        CHECK_THAT(refused({"good.atmo", "--out-dir", "x", "--texture-save-precision", bits}), Contains("from 1 to 24"));
     CHECK_THAT(refused({"good.atmo", "--out-dir", "x", "--altitudes", "5..2"}), Contains("FIRST..LAST"));
     CHECK_THAT(refused({"good.atmo", "--out-dir", "x", "--altitudes", "0..8"}), Contains("8 altitude layers, 0..7"));
     CHECK_THAT(refused({"good.atmo", "--out-dir", "x", "--tolerance", "2"}), Contains("below 1"));
@@ -194,8 +190,7 @@ TEST_CASE_METHOD(Desk, "contradictions are refused")
     CHECK_THAT(both({"--only", "eclipsed", "--no-eds-tex"}), Contains("--no-eds-tex leaves it out"));
     CHECK_THAT(both({"--only", "single", "--no-save-tex"}), Contains("--no-save-tex and --only"));
     CHECK_THAT(both({"--no-save-tex", "--skip", "moments"}), Contains("nothing to write"));
-    CHECK_THAT(both({"--save-light-pollution", "--skip", "light-pollution"}),
-               Contains("needs the part light-pollution"));
+    CHECK_THAT(both({"--save-light-pollution", "--skip", "light-pollution"}), Contains("needs the part light-pollution"));
     CHECK_THAT(both({"--dry-run", "--validate"}), Contains("give one of them"));
     CHECK_THAT(both({"--quiet", "--progress", "json"}), Contains("contradict"));
     CHECK_THAT(both({"--gl", "osmesa", "--device", "0"}), Contains("can't go with --gl osmesa"));
@@ -247,19 +242,16 @@ TEST_CASE_METHOD(Desk, "the option --dry-run prints the plan and writes nothing"
 {
     const Outcome outcome = calcmysky({"good.atmo", "--dry-run", "--out-dir", "model"});
     CHECK(outcome.exitCode == 0);
-    CHECK_THAT(outcome.output,
-               Contains("what                                         time   memory     disk  why\n"
-                        "moments                     computed       0.80 s   300 MB   120 kB\n"
-                        "eclipsed double scattering  skipped             -        -        -  --no-eds-tex\n"
-                        "total                                      0.80 s   300 MB   120 kB  memory: "));
+    CHECK_THAT(outcome.output, Contains("what                                         time   memory     disk  why\n"
+                                        "moments                     computed       0.80 s   300 MB   120 kB\n"
+                                        "eclipsed double scattering  skipped             -        -        -  --no-eds-tex\n"
+                                        "total                                      0.80 s   300 MB   120 kB  memory: "));
     CHECK_FALSE(std::filesystem::exists(directory.path() / "model"));
-    CHECK_THAT(calcmysky({"good.atmo", "--dry-run", "--skip", "moments"}).output,
-               Contains("moments                     skipped"));
+    CHECK_THAT(calcmysky({"good.atmo", "--dry-run", "--skip", "moments"}).output, Contains("moments                     skipped"));
     CHECK(calcmysky({"good.atmo", "--dry-run"}).error.empty());
     CHECK(calcmysky({"good.atmo", "--dry-run", "--tolerance", "0.01"}).error == "picked for the tolerance.\n");
     CHECK(calcmysky({"good.atmo", "--dry-run", "--tolerance", "0.01", "--quiet"}).error.empty());
-    CHECK_THAT(calcmysky({"good.atmo", "--dry-run", "--tolerance", "0.01", "--progress", "json"}).error,
-               Contains("\"event\":\"note\""));
+    CHECK_THAT(calcmysky({"good.atmo", "--dry-run", "--tolerance", "0.01", "--progress", "json"}).error, Contains("\"event\":\"note\""));
 }
 
 TEST_CASE_METHOD(Desk, "the option --validate needs no output directory and passes the verdict on")
@@ -277,11 +269,9 @@ TEST_CASE_METHOD(Desk, "progress goes to standard error in the style that was as
         more.insert(more.begin(), {"good.atmo", "--out-dir", "model"});
         return calcmysky(more);
     };
-    CHECK(said({}).error ==
-          "  0 %  medium\ncalcmysky: warning: the phase function was scaled by 1.01.\n 25 %  moments\n");
+    CHECK(said({}).error == "  0 %  medium\ncalcmysky: warning: the phase function was scaled by 1.01.\n 25 %  moments\n");
     CHECK(said({"--progress", "none"}).error == "calcmysky: warning: the phase function was scaled by 1.01.\n");
-    CHECK_THAT(said({"--progress", "bar"}).error,
-               Contains("\r[") && Contains("]  50 %  moments") && Catch::EndsWith("\r\033[K"));
+    CHECK_THAT(said({"--progress", "bar"}).error, Contains("\r[") && Contains("]  50 %  moments") && Catch::EndsWith("\r\033[K"));
     const Outcome quiet = said({"--quiet"});
     CHECK(quiet.error == "");
     CHECK_THAT(quiet.output, !Contains("model:"));
@@ -296,10 +286,7 @@ TEST_CASE_METHOD(Desk, "progress goes to standard error in the style that was as
     CHECK_THAT(failed.error, Catch::EndsWith("\"exit_code\":1}\n"));
 }
 
-TEST_CASE_METHOD(Desk, "a pipe gets no colours")
-{
-    CHECK_THAT(refused({"good.atmo"}), !Contains("\033"));
-}
+TEST_CASE_METHOD(Desk, "a pipe gets no colours") { CHECK_THAT(refused({"good.atmo"}), !Contains("\033")); }
 
 TEST_CASE_METHOD(Desk, "doctor tests the machine and says when it is a CPU", "[gl]")
 {
@@ -311,10 +298,8 @@ TEST_CASE_METHOD(Desk, "doctor tests the machine and says when it is a CPU", "[g
         return;
     }
     CHECK(outcome.exitCode == 0);
-    CHECK_THAT(outcome.output,
-               Contains("self-test passed") && Contains("OpenEXR 3") && Contains("storage buffers up to"));
-    if (outcome.output.find("llvmpipe") != std::string::npos &&
-        outcome.output.find("(software: slow)") != std::string::npos)
+    CHECK_THAT(outcome.output, Contains("self-test passed") && Contains("OpenEXR 3") && Contains("storage buffers up to"));
+    if (outcome.output.find("llvmpipe") != std::string::npos && outcome.output.find("(software: slow)") != std::string::npos)
         CHECK_THAT(outcome.output, Contains("READY"));
     CHECK_THAT(calcmysky({"doctor", "--gl", "egl"}).output, !Contains("\nOSMesa:"));
 }

@@ -16,8 +16,7 @@ namespace {
 [[noreturn]] void failLike(const std::string& name)
 {
     if (name == "typo.atmo")
-        throw AtmoError({"typo.atmo", 3, 1}, "unknown key `groud albedo`. Did you mean `ground albedo`?",
-                        "groud albedo: 0.3");
+        throw AtmoError({"typo.atmo", 3, 1}, "unknown key `groud albedo`. Did you mean `ground albedo`?", "groud albedo: 0.3");
     if (name == "driver.atmo")
         throw GlError("transmittance: the driver lost its context.");
     if (name == "nan.atmo")
@@ -39,8 +38,8 @@ atmo::Description readDescription(const std::string& path, const atmo::ParseOpti
     else
         description.scatterers.emplace_back().name = path;
     description.scatteringSize.altitude = 8;
-    std::cout << "read point=" << (options.resampling == atmo::Resampling::Point)
-              << " outside=" << static_cast<int>(options.outside) << "\n";
+    std::cout << "read point=" << (options.resampling == atmo::Resampling::Point) << " outside=" << static_cast<int>(options.outside)
+              << "\n";
     return description;
 }
 
@@ -64,13 +63,11 @@ void echo(const solver::Options& options, const gl::HeadlessOptions& openGl)
               << " memory=" << options.maxMemoryBytes;
     if (options.altitudeLayers)
         std::cout << " layers=" << options.altitudeLayers->first << ".." << options.altitudeLayers->second;
-    std::cout << "\nsave" << (options.saveIrradianceOrders ? " irradiance" : "")
-              << (options.saveScatteringDensity ? " density" : "")
-              << (options.saveScatteringDensity2FromGround ? " density2" : "")
-              << (options.saveDeltaScattering ? " delta" : "")
-              << (options.saveAccumulatedScattering ? " accumulated" : "")
-              << (options.saveLightPollution ? " pollution" : "") << "\nbackend=" << static_cast<int>(openGl.backend)
-              << " device=" << openGl.device << " debug=" << static_cast<int>(openGl.debug) << std::endl;
+    std::cout << "\nsave" << (options.saveIrradianceOrders ? " irradiance" : "") << (options.saveScatteringDensity ? " density" : "")
+              << (options.saveScatteringDensity2FromGround ? " density2" : "") << (options.saveDeltaScattering ? " delta" : "")
+              << (options.saveAccumulatedScattering ? " accumulated" : "") << (options.saveLightPollution ? " pollution" : "")
+              << "\nbackend=" << static_cast<int>(openGl.backend) << " device=" << openGl.device
+              << " debug=" << static_cast<int>(openGl.debug) << std::endl;
 }
 
 void solve(const atmo::Description& description, const solver::Options& options, const gl::HeadlessOptions& openGl,
@@ -103,7 +100,4 @@ void validate(const atmo::Description& description, const gl::HeadlessOptions&)
 
 } // namespace
 
-int main(int argc, char** argv)
-{
-    return cli::runProgram(argc, argv, {readDescription, plan, solve, validate});
-}
+int main(int argc, char** argv) { return cli::runProgram(argc, argv, {readDescription, plan, solve, validate}); }

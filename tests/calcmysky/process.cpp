@@ -88,8 +88,8 @@ Outcome run(const Run& what)
     while (out.ends[0] >= 0 || err.ends[0] >= 0) {
         pollfd waiting[2] = {{out.ends[0], POLLIN, 0}, {err.ends[0], POLLIN, 0}};
         poll(waiting, 2, -1);
-        for (const auto& [pipe, text, events] : {std::tuple{&out, &outcome.output, waiting[0].revents},
-                                                 std::tuple{&err, &outcome.error, waiting[1].revents}}) {
+        for (const auto& [pipe, text, events] :
+             {std::tuple{&out, &outcome.output, waiting[0].revents}, std::tuple{&err, &outcome.error, waiting[1].revents}}) {
             if (pipe->ends[0] < 0 || events == 0)
                 continue;
             char buffer[4096];

@@ -102,8 +102,7 @@ TEST_CASE_METHOD(Program, "a description from standard input gives the same tabl
     Run piped;
     piped.input = contentOf(earth);
     piped.directory = directory.path();
-    std::filesystem::create_directory_symlink(std::string(SKY_SOURCE_DIR) + "/examples/spectra",
-                                              directory.path() / "spectra");
+    std::filesystem::create_directory_symlink(std::string(SKY_SOURCE_DIR) + "/examples/spectra", directory.path() / "spectra");
     const Outcome outcome = calcmysky({"-", "--out-dir", "b", "--quality", "draft", "--only", "moments"}, piped);
     INFO(outcome.error);
     REQUIRE(outcome.exitCode == 0);
@@ -128,10 +127,8 @@ TEST_CASE_METHOD(Program, "errors leave the old model as it was", "[gl]")
     // Break the first code block: what follows its opening fence no longer compiles.
     const std::size_t block = code.find('\n', code.find("```")) + 1;
     code.insert(block, "this is no GLSL;\n");
-    const auto line =
-        std::to_string(std::count(code.begin(), code.begin() + static_cast<std::ptrdiff_t>(block), '\n') + 1);
-    std::filesystem::create_directory_symlink(std::string(SKY_SOURCE_DIR) + "/examples/spectra",
-                                              directory.path() / "spectra");
+    const auto line = std::to_string(std::count(code.begin(), code.begin() + static_cast<std::ptrdiff_t>(block), '\n') + 1);
+    std::filesystem::create_directory_symlink(std::string(SKY_SOURCE_DIR) + "/examples/spectra", directory.path() / "spectra");
     directory.file("code.atmo", code);
     fails("code.atmo", 2, "code.atmo:" + line);
     CHECK(calcmysky({"code.atmo", "--validate"}).exitCode == 2);

@@ -18,8 +18,7 @@ struct Stage {
 
     std::unique_ptr<Reporter> reporter(ProgressStyle style, bool quiet = false)
     {
-        return makeReporter(style, quiet,
-                            {stream, terminal, false, [this] { return columns; }, [this] { return seconds; }});
+        return makeReporter(style, quiet, {stream, terminal, false, [this] { return columns; }, [this] { return seconds; }});
     }
     /// What was said since the last call.
     std::string heard()

@@ -95,8 +95,9 @@ TEST_CASE("eclipse field: never negative, never more than without the Moon, fini
             const auto light = earth.solved(earth.bodies(elevation, higher, 0.001, 3e3)).view(earth.views(3e3), azimuths);
             int bad = 0;
             for (std::size_t i = 0; i < light.eclipsed.size(); ++i)
-                bad += !(light.eclipsed[i] >= 0) || !(light.eclipsed[i] <= 1.0001f * light.uneclipsed[i]) || !std::isfinite(light.uneclipsed[i]) ||
-                       !(light.groundEclipsed[i] >= 0) || !(light.groundEclipsed[i] <= 1.0001f * light.groundUneclipsed[i]);
+                bad += !(light.eclipsed[i] >= 0) || !(light.eclipsed[i] <= 1.0001f * light.uneclipsed[i]) ||
+                       !std::isfinite(light.uneclipsed[i]) || !(light.groundEclipsed[i] >= 0) ||
+                       !(light.groundEclipsed[i] <= 1.0001f * light.groundUneclipsed[i]);
             CHECK(bad == 0);
         }
 }
@@ -177,7 +178,9 @@ TEST_CASE("eclipse field: goes on without a jump as the Moon crosses the Sun")
     }
     CHECK(last < 0.01);
     // Contacts themselves: 0.2 arc seconds on both sides of second contact, by which the shadow moves 650 m of the 50 km that change it all.
-    const auto at = [&](double apart) -> double { return earth.solved(earth.bodies(0.7, apart * degrees), {3}).view(zenith, {0.}).skyRatio(0, 0, 1); };
+    const auto at = [&](double apart) -> double {
+        return earth.solved(earth.bodies(0.7, apart * degrees), {3}).view(zenith, {0.}).skyRatio(0, 0, 1);
+    };
     const double second = 0.0155;
     CHECK(std::abs(at(second + 5e-5) / at(second - 5e-5) - 1) < 0.025);
 }

@@ -27,8 +27,8 @@ std::vector<Row> table()
         std::replace(line.begin(), line.end(), ',', ' ');
         std::istringstream text(line);
         Row r{};
-        text >> r.altitude >> r.sunZenith >> r.viewZenith >> r.azimuth >> r.wavelengthNm >> r.moonZenith >> r.moonAzimuth >> r.moonDistance >>
-            r.single >> r.multiple >> r.error >> r.uneclipsed >> r.uneclipsedError;
+        text >> r.altitude >> r.sunZenith >> r.viewZenith >> r.azimuth >> r.wavelengthNm >> r.moonZenith >> r.moonAzimuth >>
+            r.moonDistance >> r.single >> r.multiple >> r.error >> r.uneclipsed >> r.uneclipsedError;
         REQUIRE(text);
         rows.push_back(r);
     }
@@ -62,7 +62,8 @@ TEST_CASE("eclipse field: agrees with Monte Carlo, totality to partial phases")
                 if (std::abs(row.wavelengthNm - earth.medium.wavelengthsNm[std::size_t(w)]) > 1)
                     continue;
                 const double mu = std::cos(row.viewZenith * degrees);
-                const auto light = field.view({{row.altitude, mu, physics::hitsGround(bodies.planet, row.altitude, mu), 0}}, {row.azimuth * degrees});
+                const auto light =
+                    field.view({{row.altitude, mu, physics::hitsGround(bodies.planet, row.altitude, mu), 0}}, {row.azimuth * degrees});
                 const double ratio = static_cast<double>(light.skyRatio(0, 0, w)), off = ratio * row.uneclipsed - row.multiple;
                 const double error = std::hypot(row.error, ratio * row.uneclipsedError);
                 squares += off * off;

@@ -42,7 +42,8 @@ struct Earth {
     }
 
     /// Sun at an elevation towards `north` (rad, from North over West); the Moon higher and more to the left by so much, rad.
-    physics::EclipseBodies bodies(double sunElevation, double moonHigher = 0, double moonLeft = 0, double altitude = 0, double north = 0) const
+    physics::EclipseBodies bodies(double sunElevation, double moonHigher = 0, double moonLeft = 0, double altitude = 0,
+                                  double north = 0) const
     {
         physics::EclipseBodies b;
         b.planet = profile.planet();

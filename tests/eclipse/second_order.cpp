@@ -84,7 +84,8 @@ private:
                     physics::phaseFunctionAt(air.medium, air.medium.species[air.optics.scatterers[i]],
                                              std::acos(std::clamp(dot(from, view), -1., 1.)), phase.data());
                     for (int w = 0; w < wavelengths; ++w) {
-                        const double share = directions.weight[d] * 2 * pi / azimuths * seen.weights[(k * scatterers + i) * wavelengths + w] * phase[w];
+                        const double share =
+                            directions.weight[d] * 2 * pi / azimuths * seen.weights[(k * scatterers + i) * wavelengths + w] * phase[w];
                         sum.uneclipsed[w] += share * uneclipsed[w];
                         sum.eclipsed[w] += share * eclipsed[w];
                     }

@@ -56,8 +56,7 @@ TEST_CASE("compute program: too many work groups are refused with the limit", "[
     const auto context = gl::testing::context();
     if (!context)
         return;
-    const gl::Program program =
-        gl::ProgramBuilder(context->api(), shaderFiles).compute("squares", "squares.comp", {{"COUNT", "1"}});
+    const gl::Program program = gl::ProgramBuilder(context->api(), shaderFiles).compute("squares", "squares.comp", {{"COUNT", "1"}});
     const auto limit = static_cast<unsigned>(context->api().limits().workGroupCount[1]);
     CHECK(limit >= 65535); // the minimum of OpenGL 4.3
     CHECK_THROWS_AS(program.dispatch(1, limit + 1), RangeError);

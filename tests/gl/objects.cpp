@@ -36,8 +36,8 @@ TEST_CASE("textures: what goes up comes down, in every float format, in desktop 
         // A host's odd pixel-store state must not matter.
         api->PixelStorei(GL_UNPACK_ROW_LENGTH, 99);
         api->PixelStorei(GL_PACK_ALIGNMENT, 8);
-        for (const TextureFormat format : {TextureFormat::r16f, TextureFormat::rg16f, TextureFormat::rgba16f,
-                                           TextureFormat::r32f, TextureFormat::rg32f, TextureFormat::rgba32f}) {
+        for (const TextureFormat format : {TextureFormat::r16f, TextureFormat::rg16f, TextureFormat::rgba16f, TextureFormat::r32f,
+                                           TextureFormat::rg32f, TextureFormat::rgba32f}) {
             CAPTURE(es, static_cast<int>(format));
             const auto n = static_cast<std::size_t>(gl::channels(format));
             // Integers below 2048 are exact even in half floats.
@@ -148,6 +148,7 @@ TEST_CASE("buffer textures: a driver that shows shaders less of a buffer than th
     driversGetInteger = std::exchange(functions.GetIntegerv, &smallLimit);
     const gl::Buffer whole(api, "whole", ramp(4000)), more(api, "more", ramp(4004));
     CHECK_NOTHROW(gl::BufferTexture(api, "view", whole));
-    CHECK_THROWS_WITH(gl::BufferTexture(api, "view", more), Catch::Contains("\"more\" has 1001 texels") && Catch::Contains("more than 1000"));
+    CHECK_THROWS_WITH(gl::BufferTexture(api, "view", more),
+                      Catch::Contains("\"more\" has 1001 texels") && Catch::Contains("more than 1000"));
     CHECK_THROWS_AS(gl::BufferTexture(api, "view", whole, 1), GlError);
 }

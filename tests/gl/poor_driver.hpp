@@ -55,7 +55,8 @@ vec4 poor_texture(sampler3D s, vec3 at)
         text += t + " poor_pow(" + t + " x, " + t + " y) { " + t + " z; for (int i = 0; i < " + t.back() +
                 "; ++i) z[i] = poor_pow(x[i], y[i]); return z; }\n";
     }
-    for (const char* function : {"exp", "exp2", "log", "log2", "inversesqrt", "sqrt", "pow", "sin", "cos", "length", "normalize", "texture"})
+    for (const char* function :
+         {"exp", "exp2", "log", "log2", "inversesqrt", "sqrt", "pow", "sin", "cos", "length", "normalize", "texture"})
         text += std::string("#define ") + function + " poor_" + function + "\n";
     const auto put = [&](const std::string& word, const std::string& value) {
         for (std::size_t at; (at = text.find(word)) != std::string::npos;)

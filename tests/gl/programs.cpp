@@ -64,8 +64,7 @@ TEST_CASE("compile errors: a description's block is reported at its own line", "
         return;
     const gl::Snippet bad{"density", "    float scale = 8.0;\n    return exp(-altitud / scale);\n", "earth.atmo", 42};
     const std::string message = failure<AtmoError>(*context, "user.comp", {bad});
-    CHECK_THAT(message, Catch::StartsWith("earth.atmo:43") && Contains("altitud") &&
-                            Contains("\n        return exp(-altitud / scale);"));
+    CHECK_THAT(message, Catch::StartsWith("earth.atmo:43") && Contains("altitud") && Contains("\n        return exp(-altitud / scale);"));
 
     gl::Snippet host = bad;
     host.fromDescription = false;

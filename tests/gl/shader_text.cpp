@@ -48,9 +48,8 @@ TEST_CASE("includes: each file once, with the lines of its own")
     std::vector<std::string> places;
     for (const gl::ShaderText::Line& line : shader.lines)
         places.push_back(shader.origins.at(static_cast<std::size_t>(line.origin)).file + ":" + std::to_string(line.line));
-    CHECK(places == std::vector<std::string>{"<defines of main.comp>:1", "<defines of main.comp>:2",
-                                             "<defines of main.comp>:3", "main.comp:1", "a.glsl:1", "b.glsl:2",
-                                             "main.comp:4"});
+    CHECK(places == std::vector<std::string>{"<defines of main.comp>:1", "<defines of main.comp>:2", "<defines of main.comp>:3",
+                                             "main.comp:1", "a.glsl:1", "b.glsl:2", "main.comp:4"});
 }
 
 TEST_CASE("includes: none inside comments, no endless loop, a missing file names the line that wants it")
@@ -64,8 +63,7 @@ TEST_CASE("includes: none inside comments, no endless loop, a missing file names
 
 TEST_CASE("OpenGL ES: precision follows the version")
 {
-    CHECK_THAT(gl::expandShader(files, "a.glsl", "300 es", {}, {}).text,
-               Catch::StartsWith("#version 300 es\nprecision highp float;\n"));
+    CHECK_THAT(gl::expandShader(files, "a.glsl", "300 es", {}, {}).text, Catch::StartsWith("#version 300 es\nprecision highp float;\n"));
 }
 
 TEST_CASE("a description's block: keeps its lines, and can't disturb what is around it")

@@ -21,14 +21,28 @@ std::map<std::string, std::vector<GLint>> snapshot(const gl::Api& api)
         api->GetIntegerv(what, values.data());
         state[name] = values;
     };
-    const std::map<std::string, GLenum> names{
-        {"program", GL_CURRENT_PROGRAM}, {"vertex array", GL_VERTEX_ARRAY_BINDING}, {"array buffer", GL_ARRAY_BUFFER_BINDING},
-        {"copy write", GL_COPY_WRITE_BUFFER}, {"uniform", GL_UNIFORM_BUFFER_BINDING}, {"draw", GL_DRAW_FRAMEBUFFER_BINDING},
-        {"read", GL_READ_FRAMEBUFFER_BINDING}, {"unit", GL_ACTIVE_TEXTURE}, {"viewport", GL_VIEWPORT},
-        {"scissor box", GL_SCISSOR_BOX}, {"mask", GL_COLOR_WRITEMASK}, {"depth mask", GL_DEPTH_WRITEMASK},
-        {"clear", GL_COLOR_CLEAR_VALUE}, {"source", GL_BLEND_SRC_RGB}, {"destination", GL_BLEND_DST_ALPHA},
-        {"equation", GL_BLEND_EQUATION_RGB}, {"blend", GL_BLEND}, {"depth", GL_DEPTH_TEST}, {"cull", GL_CULL_FACE},
-        {"scissor", GL_SCISSOR_TEST}, {"dither", GL_DITHER}, {"stencil", GL_STENCIL_TEST}};
+    const std::map<std::string, GLenum> names{{"program", GL_CURRENT_PROGRAM},
+                                              {"vertex array", GL_VERTEX_ARRAY_BINDING},
+                                              {"array buffer", GL_ARRAY_BUFFER_BINDING},
+                                              {"copy write", GL_COPY_WRITE_BUFFER},
+                                              {"uniform", GL_UNIFORM_BUFFER_BINDING},
+                                              {"draw", GL_DRAW_FRAMEBUFFER_BINDING},
+                                              {"read", GL_READ_FRAMEBUFFER_BINDING},
+                                              {"unit", GL_ACTIVE_TEXTURE},
+                                              {"viewport", GL_VIEWPORT},
+                                              {"scissor box", GL_SCISSOR_BOX},
+                                              {"mask", GL_COLOR_WRITEMASK},
+                                              {"depth mask", GL_DEPTH_WRITEMASK},
+                                              {"clear", GL_COLOR_CLEAR_VALUE},
+                                              {"source", GL_BLEND_SRC_RGB},
+                                              {"destination", GL_BLEND_DST_ALPHA},
+                                              {"equation", GL_BLEND_EQUATION_RGB},
+                                              {"blend", GL_BLEND},
+                                              {"depth", GL_DEPTH_TEST},
+                                              {"cull", GL_CULL_FACE},
+                                              {"scissor", GL_SCISSOR_TEST},
+                                              {"dither", GL_DITHER},
+                                              {"stencil", GL_STENCIL_TEST}};
     for (const auto& [name, what] : names)
         ask(name, what);
     GLint unit = 0;

@@ -1,7 +1,7 @@
 // Damaged, foreign and hostile models: each gives its sentence, none crashes.
-#include "support.hpp"
 #include "base/error.hpp"
 #include "model/exr_header.hpp"
+#include "support.hpp"
 #include <catch2/catch.hpp>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -66,7 +66,11 @@ TEST_CASE("a broken manifest: the sentence names the entry and what was expected
         {"text for number", [](Json& j) { j["planetRadius"] = "6371 km"; }, "planetRadius: expected a number, found string."},
         {"flat planet", [](Json& j) { j["planetRadius"] = 0; }, "planetRadius: is 0.0; 0.001 to 1e+20 is expected."},
         {"no wavelengths", [](Json& j) { j["wavelengthsNm"] = Json::array(); }, "wavelengthsNm: has 0 values"},
-        {"wavelengths fall", [](Json& j) { j["wavelengthsNm"] = {4, 3, 2, 1}; }, "wavelengthsNm: must increase"},
+        {"wavelengths fall",
+         [](Json& j) {
+             j["wavelengthsNm"] = {4, 3, 2, 1};
+         },
+         "wavelengthsNm: must increase"},
         {"short spectrum", [](Json& j) { j["groundAlbedo"] = {0.5}; }, "groundAlbedo: has 1 values; one for each of the 4"},
         {"bright ground", [](Json& j) { j["groundAlbedo"][2] = 1.5; }, "groundAlbedo[2]: is 1.5; 0.0 to 1.0 is expected."},
         {"null in a spectrum", [](Json& j) { j["solarIrradiance"][1] = nullptr; }, "solarIrradiance[1]: expected a number, found null"},
@@ -74,12 +78,14 @@ TEST_CASE("a broken manifest: the sentence names the entry and what was expected
         {"huge integer", [](Json& j) { j["scatteringOrders"] = 18446744073709551615ull; }, "scatteringOrders: is 18446744073709551615"},
         {"species", [](Json& j) { j["species"][0]["phaseFunctionType"] = "odd"; }, "species[0].phaseFunctionType: is 'odd'"},
         {"tables", [](Json& j) { j["tables"] = 3; }, "tables: expected an array, found number."},
-        {"escape upwards", [](Json& j) { j["tables"][0]["file"] = "../../etc/passwd"; }, "tables[0].file: is '../../etc/passwd'; a plain relative name"},
+        {"escape upwards", [](Json& j) { j["tables"][0]["file"] = "../../etc/passwd"; },
+         "tables[0].file: is '../../etc/passwd'; a plain relative name"},
         {"absolute path", [](Json& j) { j["tables"][0]["file"] = "/etc/passwd"; }, "a plain relative name"},
         {"backslash", [](Json& j) { j["tables"][0]["file"] = "..\\x.exr"; }, "a plain relative name"},
         {"hidden", [](Json& j) { j["tables"][0]["file"] = "a/.b"; }, "a plain relative name"},
         {"file in files", [](Json& j) { j["files"]["../x"] = j["files"]["radiance.exr"]; }, "is not a plain relative name"},
-        {"unlisted", [](Json& j) { j["files"].erase("radiance.exr"); }, "tables[0].file: the file 'radiance.exr' of table 'radiance' is not listed"},
+        {"unlisted", [](Json& j) { j["files"].erase("radiance.exr"); },
+         "tables[0].file: the file 'radiance.exr' of table 'radiance' is not listed"},
         {"checksum", [](Json& j) { j["files"]["radiance.exr"]["xxh3-128"] = "12"; }, "32 hexadecimal digits"},
         {"negative size", [](Json& j) { j["files"]["radiance.exr"]["bytes"] = -1; }, "files.radiance.exr.bytes: is -1; 0 to"},
         {"twice", [](Json& j) { j["tables"][1] = j["tables"][0]; }, "two tables are called 'radiance'"},

@@ -1,6 +1,6 @@
-#include "support.hpp"
 #include "base/error.hpp"
 #include "model/medium_tables.hpp"
+#include "support.hpp"
 #include <catch2/catch.hpp>
 #include <numbers>
 

@@ -10,8 +10,7 @@ using namespace sky;
 using namespace sky::model;
 using namespace sky::model::test;
 
-namespace
-{
+namespace {
 
 physics::Moments someMoments(int degree)
 {
@@ -24,16 +23,14 @@ physics::Moments someMoments(int degree)
         for (int j = 0; j < 6; ++j)
             for (int lm = 0; lm < count; ++lm)
                 for (int w = 0; w < 4; ++w) // logarithms down to darkness, ratios of either sign
-                    m.values.push_back(lm == 0 ? -69 * std::exp(-j) - 0.1 * w - a
-                                               : std::sin(lm + 10. * j + 100. * a + w));
+                    m.values.push_back(lm == 0 ? -69 * std::exp(-j) - 0.1 * w - a : std::sin(lm + 10. * j + 100. * a + w));
     for (int i = 0; i < 24; ++i)
         m.groundIrradiance.push_back(std::exp(-i));
     return m;
 }
 
 /// A model that holds `moments`; `change` may spoil its manifest.
-Model written(const Scratch& scratch, const physics::Moments& moments,
-              const std::function<void(Manifest&)>& change = {})
+Model written(const Scratch& scratch, const physics::Moments& moments, const std::function<void(Manifest&)>& change = {})
 {
     ModelWriter writer(scratch.path / "m");
     writeMoments(writer, "moments", moments);
@@ -64,9 +61,8 @@ TEST_CASE("moments in a model: written and read they are the same to within a fl
         const auto after = readMoments(written(scratch, before));
         CHECK(after.degree == degree);
         CHECK(after.wavelengths == 4);
-        CHECK(after.grid.altitudes() == before.grid.altitudes()); // nodes stand in the manifest, in full
-        CHECK(after.grid.lowestElevation() ==
-              Approx(before.grid.lowestElevation()).epsilon(1e-12)); // there and back through sinh
+        CHECK(after.grid.altitudes() == before.grid.altitudes());                                    // nodes stand in the manifest, in full
+        CHECK(after.grid.lowestElevation() == Approx(before.grid.lowestElevation()).epsilon(1e-12)); // there and back through sinh
         REQUIRE(after.values.size() == before.values.size());
         for (std::size_t i = 0; i < before.values.size(); ++i)
             CHECK(after.values[i] == double(float(before.values[i])));
@@ -105,8 +101,7 @@ TEST_CASE("moments in a model: tables that are none are refused with a sentence"
         {"five harmonics", [](TableSpec& s) { s.axes[1].nodes.pop_back(); }, "has 5 harmonics; expected 1, 3, 6, 10"},
         {"not from the ground", [](TableSpec& s) { s.axes[0].nodes[0] = 1; }, "must reach from 0"},
         {"levels fall", [](TableSpec& s) { std::swap(s.axes[0].nodes[1], s.axes[0].nodes[2]); }, "must increase"},
-        {"no night", [](TableSpec& s) { s.axes[2].nodes[0] = 0.1; },
-         "must stand between -90 degrees and the horizontal"},
+        {"no night", [](TableSpec& s) { s.axes[2].nodes[0] = 0.1; }, "must stand between -90 degrees and the horizontal"},
         {"other Suns", [](TableSpec& s) { s.axes[2].nodes[3] += 1e-3; }, "don't follow the mapping"},
         {"one Sun", [](TableSpec& s) { s.axes[2].nodes.resize(1); }, "two Suns or more"},
         {"other rows", [](TableSpec& s) { s.rowAxes = 1; }, "expected the axes"},
@@ -121,8 +116,7 @@ TEST_CASE("moments in a model: tables that are none are refused with a sentence"
         writer.table(good.table("moments-ground-irradiance"), good.readAll("moments-ground-irradiance"));
         writer.commit(smallManifest());
         INFO(change.name);
-        CHECK_THAT(complaint(Model::open(spoilt.path / "m")),
-                   Catch::Contains("table \"moments\"") && Catch::Contains(change.expected));
+        CHECK_THAT(complaint(Model::open(spoilt.path / "m")), Catch::Contains("table \"moments\"") && Catch::Contains(change.expected));
     }
 }
 
@@ -143,6 +137,5 @@ TEST_CASE("moments in a model: the optics that go with them are rebuilt, or thei
     }
     const Scratch bare, whole;
     CHECK_THROWS_AS(readOptics(written(bare, someMoments(0)), medium), ModelError);
-    CHECK(readOptics(written(whole, someMoments(0), [&](Manifest& m) { describeOptics(m, optics, true); }), medium)
-              .degree == 7);
+    CHECK(readOptics(written(whole, someMoments(0), [&](Manifest& m) { describeOptics(m, optics, true); }), medium).degree == 7);
 }

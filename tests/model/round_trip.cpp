@@ -1,6 +1,6 @@
-#include "support.hpp"
 #include "base/error.hpp"
 #include "model/precision.hpp"
+#include "support.hpp"
 #include <catch2/catch.hpp>
 #include <limits>
 
@@ -21,8 +21,7 @@ TEST_CASE("a model comes back as it was written")
     CHECK(model.text("description.atmo") == "version: 6\n");
     CHECK(model.tables().size() == 2);
     CHECK(model.table("radiance").axes == spec.axes);
-    CHECK(model.table("radiance").channelNames ==
-          std::vector<std::string>{"S0.391,333nm", "S0.500nm", "S0.600nm", "S0.700nm"});
+    CHECK(model.table("radiance").channelNames == std::vector<std::string>{"S0.391,333nm", "S0.500nm", "S0.600nm", "S0.700nm"});
     CHECK(model.table("layers/luminance").file == "layers/luminance.exr");
     model.verifyChecksums();
 
@@ -100,12 +99,21 @@ TEST_CASE("fewer bits round to nearest within half a unit, over the range of twi
 TEST_CASE("halves with a row exponent: extremes of a row")
 {
     const Scratch scratch;
-    TableSpec spec{.name = "t", .quantity = "q", .unit = "1", .axes = {axis("row", "1", 4, 1), axis("i", "1", 4, 1)},
-                   .channelNames = {"v"}, .significandBits = 11, .isSigned = true};
-    const std::vector<float> values{0, 0, 0, 0,                     //
-                                    1e30f, 1e24f, -1e30f, 0,        //
-                                    1e-36f, 3e-37f, -1e-36f, 0,     // close to the least normal float
-                                    1, 5.9604645e-8f, 1e-12f, -1};  // 2^-24 of the maximum still has all bits
+    TableSpec spec{.name = "t",
+                   .quantity = "q",
+                   .unit = "1",
+                   .axes = {axis("row", "1", 4, 1), axis("i", "1", 4, 1)},
+                   .channelNames = {"v"},
+                   .significandBits = 11,
+                   .isSigned = true};
+    const std::vector<float> values{0,       0,
+                                    0,       0, //
+                                    1e30f,   1e24f,
+                                    -1e30f,  0, //
+                                    1e-36f,  3e-37f,
+                                    -1e-36f, 0, // close to the least normal float
+                                    1,       5.9604645e-8f,
+                                    1e-12f,  -1}; // 2^-24 of the maximum still has all bits
     {
         ModelWriter writer(scratch.path / "m");
         writer.table(spec, values);
@@ -123,8 +131,8 @@ TEST_CASE("halves with a row exponent: extremes of a row")
 TEST_CASE("floats at the limits of half and float survive", "[round-trip]")
 {
     const Scratch scratch;
-    TableSpec spec{.name = "t", .quantity = "q", .unit = "1", .axes = {axis("row", "1", 1, 1), axis("i", "1", 6, 1)},
-                   .channelNames = {"v"}};
+    TableSpec spec{
+        .name = "t", .quantity = "q", .unit = "1", .axes = {axis("row", "1", 1, 1), axis("i", "1", 6, 1)}, .channelNames = {"v"}};
     const float largest = std::numeric_limits<float>::max();
     const std::vector<float> values{0, 6e-8f, 65504, 1e9f, largest, std::numeric_limits<float>::denorm_min()};
     {

@@ -11,8 +11,7 @@ using namespace sky;
 using namespace sky::model;
 using namespace sky::model::test;
 
-namespace
-{
+namespace {
 
 constexpr double pi = 3.14159265358979323846;
 constexpr int suns = 5, views = 8, azimuths = 4;
@@ -33,11 +32,10 @@ TableSpec scatteringSpec(int layers)
     spec.name = "sky";
     spec.quantity = "radiance";
     spec.unit = "W m^-2 sr^-1 nm^-1";
-    spec.axes = {
-        {"altitude", "m", physics::altitudeNodes(planet, layers), {"horizon-distance", {}}},
-        indices("sunZenithAngle", suns, {"sun-from-horizon", {{"scale", physics::sunTableScale}, {"vDark", vDark}}}),
-        indices("viewZenithAngle", views, {"horizon-halves", {{"scale", physics::horizonAngleScale}}}),
-        {"relativeAzimuth", "rad", physics::azimuthNodes(azimuths), {"uniform", {}}}};
+    spec.axes = {{"altitude", "m", physics::altitudeNodes(planet, layers), {"horizon-distance", {}}},
+                 indices("sunZenithAngle", suns, {"sun-from-horizon", {{"scale", physics::sunTableScale}, {"vDark", vDark}}}),
+                 indices("viewZenithAngle", views, {"horizon-halves", {{"scale", physics::horizonAngleScale}}}),
+                 {"relativeAzimuth", "rad", physics::azimuthNodes(azimuths), {"uniform", {}}}};
     spec.rowAxes = 2;
     spec.channels = Channels::SpectralRadiance;
     spec.wavelengthsNm = smallManifest().wavelengthsNm;
@@ -64,8 +62,7 @@ Model written(const Scratch& scratch, const TableSpec& spec, const Value& value)
 /// All different, over six decades.
 double uneven(int layer, int sun, int view, int azimuth, int channel)
 {
-    return std::exp(1.7 * sun - 0.6 * layer + 0.3 * std::sin(7. * view + layer) + 0.1 * std::cos(2. * azimuth)) *
-           (1 + 0.2 * channel);
+    return std::exp(1.7 * sun - 0.6 * layer + 0.3 * std::sin(7. * view + layer) + 0.1 * std::cos(2. * azimuth)) * (1 + 0.2 * channel);
 }
 
 std::vector<double> sampled(const ScatteringTable& table, double altitude, double sun, double view, double azimuth)
@@ -97,17 +94,14 @@ TEST_CASE("scattering table: nodes of all four axes give what was written")
             for (int view = 0; view < views; ++view)
                 for (int azimuth = 0; azimuth < azimuths; ++azimuth)
                     for (int c = 0; c < 4; ++c) {
-                        INFO("layer " << layer << " Sun " << sun << " view " << view << " azimuth " << azimuth
-                                      << " channel " << c);
+                        INFO("layer " << layer << " Sun " << sun << " view " << view << " azimuth " << azimuth << " channel " << c);
                         const double truth = uneven(layer, sun, view, azimuth, c);
                         // Float in, float out, and a place that is a node to within roundings.
-                        CHECK(double(slice[(std::size_t(view) * azimuths + azimuth) * 4 + c]) ==
-                              Approx(truth).epsilon(1e-6));
+                        CHECK(double(slice[(std::size_t(view) * azimuths + azimuth) * 4 + c]) == Approx(truth).epsilon(1e-6));
                         if (view == views / 2 - 1 || view == views / 2 || sun != 2)
                             continue; // the two on the horizon: below; other Suns: the same code
                         double result[4];
-                        table.sample(slice, altitudes[layer], std::asin(muNodes[view]), pi * azimuth / (azimuths - 1),
-                                     result);
+                        table.sample(slice, altitudes[layer], std::asin(muNodes[view]), pi * azimuth / (azimuths - 1), result);
                         CHECK(result[c] == Approx(truth).epsilon(1e-5));
                     }
             // The two sides of the horizon are told apart.
@@ -134,11 +128,9 @@ TEST_CASE("scattering table: what is exponential over the nodes is exact between
             for (const double viewPlace : {0.5, 1.7, 2.9}) {
                 const double h = places[step], horizon = physics::horizonElevation(planet, h), range = pi / 2 - horizon;
                 const double v = vDark + (1 - vDark) * sunPlace / (suns - 1);
-                const double sun =
-                    horizon + range * std::sinh(physics::sunTableScale * v) / std::sinh(physics::sunTableScale);
+                const double sun = horizon + range * std::sinh(physics::sunTableScale * v) / std::sinh(physics::sunTableScale);
                 const double whole = std::asinh(range / physics::horizonAngleScale);
-                const double view =
-                    horizon + physics::horizonAngleScale * std::sinh(whole * viewPlace / (views / 2 - 1));
+                const double view = horizon + physics::horizonAngleScale * std::sinh(whole * viewPlace / (views / 2 - 1));
                 CHECK(sampled(table, h, sun, view, 0.3)[0] ==
                       Approx(std::exp(-0.9 * step / 10. + 2.5 * sunPlace - 0.7 * viewPlace)).epsilon(1e-5)); // floats
             }
@@ -216,8 +208,7 @@ TEST_CASE("scattering table: other tables are refused with a sentence")
         {"no parameter", [](TableSpec& s) { s.axes[1].mapping.parameters.erase("vDark"); }, "sun-from-horizon"},
         {"another scale", [](TableSpec& s) { s.axes[1].mapping.parameters["scale"] = 3; }, "with scale 4.5"},
         {"nothing but dark", [](TableSpec& s) { s.axes[1].mapping.parameters["vDark"] = 1; }, "sun-from-horizon"},
-        {"an odd number of views", [](TableSpec& s) { s.axes[2].nodes.pop_back(); },
-         "viewZenithAngle (even, 4 or more)"},
+        {"an odd number of views", [](TableSpec& s) { s.axes[2].nodes.pop_back(); }, "viewZenithAngle (even, 4 or more)"},
         {"one azimuth", [](TableSpec& s) { s.axes[3].nodes.resize(1); }, "relativeAzimuth"},
         {"other rows", [](TableSpec& s) { s.rowAxes = 1; }, "expected the axes"},
     };

@@ -31,10 +31,7 @@ inline std::string readFile(const std::filesystem::path& path)
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-inline void writeFile(const std::filesystem::path& path, const std::string& text)
-{
-    std::ofstream(path, std::ios::binary) << text;
-}
+inline void writeFile(const std::filesystem::path& path, const std::string& text) { std::ofstream(path, std::ios::binary) << text; }
 
 inline Manifest smallManifest()
 {
@@ -74,8 +71,8 @@ inline TableSpec skySpec(const std::string& name, Channels channels, int bits)
     spec.name = name;
     spec.quantity = "radiance";
     spec.unit = "W m^-2 sr^-1 nm^-1";
-    spec.axes = {axis("altitude", "m", 4, 1000), axis("sunZenithAngle", "rad", 32, 0.1),
-                 axis("viewZenithAngle", "rad", 6, 0.5), axis("relativeAzimuth", "rad", 3, 1)};
+    spec.axes = {axis("altitude", "m", 4, 1000), axis("sunZenithAngle", "rad", 32, 0.1), axis("viewZenithAngle", "rad", 6, 0.5),
+                 axis("relativeAzimuth", "rad", 3, 1)};
     spec.rowAxes = 2;
     spec.channels = channels;
     if (channels == Channels::SpectralRadiance || channels == Channels::SpectralDimensionless)

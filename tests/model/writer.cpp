@@ -1,6 +1,6 @@
-#include "support.hpp"
 #include "base/error.hpp"
 #include "base/files.hpp"
+#include "support.hpp"
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <limits>
@@ -48,8 +48,8 @@ TEST_CASE("values that are no radiance are refused with their place")
 {
     const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
     for (const int bits : {24, 16, 11})
-        for (const auto& [value, word] : {std::pair{nan, "not a number"}, {-nan, "not a number"}, {inf, "infinite"},
-                                          {-inf, "infinite"}, {-1e-30f, "negative"}}) {
+        for (const auto& [value, word] :
+             {std::pair{nan, "not a number"}, {-nan, "not a number"}, {inf, "infinite"}, {-inf, "infinite"}, {-1e-30f, "negative"}}) {
             const Scratch scratch;
             const TableSpec spec = skySpec("layer", Channels::Luminance, bits);
             auto values = skyValues(spec);
@@ -100,10 +100,12 @@ TEST_CASE("a commit can be stopped up to its last moment; then the old model is 
     for (const double last : {0., 1.}) {
         ModelWriter writer(scratch.path / "m");
         writer.text("description.atmo", "second\n");
-        CHECK_THROWS_AS(writer.commit(smallManifest(), [&](double done) {
-            if (done >= last)
-                throw Cancelled("stop");
-        }), Cancelled);
+        CHECK_THROWS_AS(writer.commit(smallManifest(),
+                                      [&](double done) {
+                                          if (done >= last)
+                                              throw Cancelled("stop");
+                                      }),
+                        Cancelled);
     }
     CHECK(namesIn(scratch.path) == std::vector<std::string>{"m"});
     CHECK(Model::open(scratch.path / "m").text("description.atmo") == "version: 6\n");
@@ -194,8 +196,7 @@ TEST_CASE("file names are safe and distinct for any species")
 #if defined(__linux__)
 TEST_CASE("child of the next test: writes a model where files can't grow", "[.full-disk]")
 {
-    CHECK_THROWS_WITH(writeSmallModel(std::getenv("SKY_TEST_MODEL")),
-                      Catch::Contains("radiance.exr': File too large."));
+    CHECK_THROWS_WITH(writeSmallModel(std::getenv("SKY_TEST_MODEL")), Catch::Contains("radiance.exr': File too large."));
 }
 
 TEST_CASE("a full disk is a sentence, and the old model stays")

@@ -1,7 +1,7 @@
 // Light of cities: closed form, the even glow as their limit, and random paths at several distances.
+#include "physics/city.hpp"
 #include "montecarlo/ground_light.hpp"
 #include "montecarlo/reference.hpp"
-#include "physics/city.hpp"
 #include "physics/glow_light.hpp"
 #include "sample_air.hpp"
 #include <catch2/catch.hpp>
@@ -41,12 +41,10 @@ struct Town {
     std::vector<double> seen(double distance, double altitude, double viewZenithAngle, double azimuth, bool single = false)
     {
         const double angle = distance / medium.planetRadius, mu = std::cos(viewZenithAngle);
-        const CityView view{altitude, mu, angle,
-                            mu * std::cos(angle) + std::sin(viewZenithAngle) * std::cos(azimuth) * std::sin(angle),
+        const CityView view{altitude, mu, angle, mu * std::cos(angle) + std::sin(viewZenithAngle) * std::cos(azimuth) * std::sin(angle),
                             hitsGround(air.profile().planet(), altitude, mu)};
         std::vector<double> result(medium.wavelengthsNm.size());
-        cityRadiance(air, field && !single ? &*field : nullptr, radius, view, {tracer, altitude, mu, view.hitsGround}, true,
-                     result.data());
+        cityRadiance(air, field && !single ? &*field : nullptr, radius, view, {tracer, altitude, mu, view.hitsGround}, true, result.data());
         return result;
     }
 };
@@ -58,8 +56,7 @@ TEST_CASE("city: a small disc lights thin air as its area and the inverse square
     const double depth = 1e-4, disc = 20;
     Town town(layer(depth, 1, 0, test::isotropicPhase), disc, false);
     for (const double distance : {100., 500., 2000., 5e3}) {
-        const double expected =
-            depth / 1000 / (4 * pi) * pi * disc * disc * (1 / distance - 1 / std::hypot(distance, 1000.));
+        const double expected = depth / 1000 / (4 * pi) * pi * disc * disc * (1 / distance - 1 / std::hypot(distance, 1000.));
         INFO(distance << " m");
         CHECK(town.seen(distance, 0, 0, 0)[0] == Approx(expected).epsilon(0.015)); // nodes; the disc's own size, 20 m in 100; curvature
     }
@@ -103,9 +100,17 @@ TEST_CASE("city: single and higher orders agree with Monte Carlo at several dist
     struct Place {
         double distance, altitude, angle, azimuth;
     };
-    for (const auto& [distance, altitude, angle, azimuth] :
-         {Place{0, 0, 0, 0}, {0, 3000, 60, 0}, {5e3, 0, 60, 180}, {20e3, 0, 0, 0}, {20e3, 0, 85, 0}, {50e3, 0, 60, 0},
-          {50e3, 3000, 85, 0}, {100e3, 0, 85, 0}, {100e3, 0, 60, 180}, {0, 0, 85, 0}, {5.2e3, 0, 85, 0}}) { // the last two pass low over the edge
+    for (const auto& [distance, altitude, angle, azimuth] : {Place{0, 0, 0, 0},
+                                                             {0, 3000, 60, 0},
+                                                             {5e3, 0, 60, 180},
+                                                             {20e3, 0, 0, 0},
+                                                             {20e3, 0, 85, 0},
+                                                             {50e3, 0, 60, 0},
+                                                             {50e3, 3000, 85, 0},
+                                                             {100e3, 0, 85, 0},
+                                                             {100e3, 0, 60, 180},
+                                                             {0, 0, 85, 0},
+                                                             {5.2e3, 0, 85, 0}}) { // the last two pass low over the edge
         INFO("distance " << distance << ", altitude " << altitude << ", zenith angle " << angle << ", azimuth " << azimuth);
         const double single = town.seen(distance, altitude, angle * degree, azimuth * degree, true)[1];
         const double all = town.seen(distance, altitude, angle * degree, azimuth * degree)[1];

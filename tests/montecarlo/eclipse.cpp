@@ -50,8 +50,8 @@ TEST_CASE("Monte Carlo eclipse: chords see of the Sun what the closed form of tw
             const double seen = eclipse.average(r, place, rule, [](Vec) { return 1.0; });
             const Vec p = r * place.up;
             const double apart = angleBetween(normalized(sun - p), normalized(moon - p));
-            const double expected = physics::visibleFraction(
-                physics::Discs<double>{radius, std::asin(lunarRadius / length(moon - p)), apart});
+            const double expected =
+                physics::visibleFraction(physics::Discs<double>{radius, std::asin(lunarRadius / length(moon - p)), apart});
             CAPTURE(distance, x);
             CHECK(seen == Approx(expected).epsilon(1e-4).margin(1e-6)); // flat discs against spherical caps
         }
@@ -92,8 +92,7 @@ TEST_CASE("Monte Carlo eclipse: the sky is symmetric about the plane of Sun, Moo
     const Reference reference(earth());
     Query left = total(70, 50, 0), right = total(70, -50, 0);
     left.moon->zenithAngle = right.moon->zenithAngle = 50.1 * degree;
-    CHECK(reference.radiance(left, {.orders = 1}).single ==
-          Approx(reference.radiance(right, {.orders = 1}).single).epsilon(1e-6));
+    CHECK(reference.radiance(left, {.orders = 1}).single == Approx(reference.radiance(right, {.orders = 1}).single).epsilon(1e-6));
 }
 
 TEST_CASE("Monte Carlo eclipse: tables name the Moon, impossible Moons are refused")

@@ -15,10 +15,7 @@ namespace {
 
 constexpr double degree = pi / 180;
 
-Settings fixed(std::int64_t paths, int orders = 0)
-{
-    return {.orders = orders, .relativeError = 0, .maxPaths = paths, .seed = 11};
-}
+Settings fixed(std::int64_t paths, int orders = 0) { return {.orders = orders, .relativeError = 0, .maxPaths = paths, .seed = 11}; }
 
 Query looking(double altitude, double viewZenithAngle, int wavelength = 0, double azimuth = 0)
 {
@@ -44,9 +41,7 @@ TEST_CASE("ground light: the ground itself is dimmed by the air before it, insid
     CHECK(all.scattered == 0);
     // The ray meets the ground 1732 m away in azimuth 0.4.
     const auto seen = [&](double distance, double azimuth) {
-        return absorber
-            .groundLight(looking(1000, pi - std::acos(0.5), 0, 0.4), GroundDisc{distance, azimuth, 100}, fixed(256))
-            .direct;
+        return absorber.groundLight(looking(1000, pi - std::acos(0.5), 0, 0.4), GroundDisc{distance, azimuth, 100}, fixed(256)).direct;
     };
     CHECK(seen(1700, 0.4) == Approx(all.direct).epsilon(1e-12));
     CHECK(seen(1600, 0.4) == 0);

@@ -12,8 +12,7 @@
 using namespace sky;
 using namespace sky::montecarlo;
 
-namespace
-{
+namespace {
 
 PhaseTable sampleAerosol()
 {

@@ -15,23 +15,16 @@ using namespace sky;
 using namespace sky::montecarlo;
 using std::numbers::pi;
 
-namespace
-{
+namespace {
 
 constexpr double degree = pi / 180;
 
-Settings fixed(std::int64_t paths, int orders = 0)
-{
-    return {.orders = orders, .relativeError = 0, .maxPaths = paths, .seed = 7};
-}
+Settings fixed(std::int64_t paths, int orders = 0) { return {.orders = orders, .relativeError = 0, .maxPaths = paths, .seed = 7}; }
 
 /// Camera on top of the flat layer looking down at cosine mu from the nadir, the Sun at cosine mu0 from the zenith.
 Query fromAbove(double mu, double mu0, double azimuth = 0.3)
 {
-    return {.altitude = 1000,
-            .sunZenithAngle = std::acos(mu0),
-            .viewZenithAngle = pi - std::acos(mu),
-            .relativeAzimuth = azimuth};
+    return {.altitude = 1000, .sunZenithAngle = std::acos(mu0), .viewZenithAngle = pi - std::acos(mu), .relativeAzimuth = azimuth};
 }
 
 Query fromBelow(double mu, double mu0, double azimuth = 0.3)
@@ -110,8 +103,7 @@ TEST_CASE("isotropic, flat and deep: Chandrasekhar's H function")
                 const Result r = reference.radiance(fromAbove(mu, mu0), fixed(16384));
                 const double expected = albedo / (4 * pi) * mu0 / (mu + mu0) * h(mu) * h(mu0);
                 const double z = (r.total() - expected) / r.multipleStderr;
-                INFO("albedo " << albedo << " mu " << mu << " mu0 " << mu0 << " relative stderr "
-                               << r.multipleStderr / r.total());
+                INFO("albedo " << albedo << " mu " << mu << " mu0 " << mu0 << " relative stderr " << r.multipleStderr / r.total());
                 CHECK(std::abs(z) < 3.5);
                 CHECK(r.multipleStderr < 0.005 * r.total());
                 deviation += r.total() / expected - 1;
@@ -138,13 +130,11 @@ TEST_CASE("energy: air that does not absorb, over white ground, returns all the 
             down += weight * below.total();
             up += weight * above.total();
             // `down` reaches the top through the ground with a factor below 1.
-            variance += weight * weight *
-                        (below.multipleStderr * below.multipleStderr + above.multipleStderr * above.multipleStderr);
+            variance += weight * weight * (below.multipleStderr * below.multipleStderr + above.multipleStderr * above.multipleStderr);
         }
         groundView += 2 * pi * 0.5 * gauss.weight[i] * mu * std::exp(-depth / mu);
     }
-    const double ground =
-        down + mu0 * std::exp(-depth / mu0); // irradiance; white: all of it leaves, as ground / pi per sr
+    const double ground = down + mu0 * std::exp(-depth / mu0); // irradiance; white: all of it leaves, as ground / pi per sr
     const double leaving = up + ground / pi * groundView;
     const double noise = std::sqrt(variance) / mu0;
     INFO("returned " << leaving / mu0 << " +- " << noise);
@@ -173,11 +163,8 @@ TEST_CASE("order 1 by random paths is order 1 by quadrature")
 {
     const Reference reference(test::sampleEarth(test::Aerosol::Yes));
     for (const double sza : {40.0, 89.0, 95.0}) {
-        const Query query{.altitude = 2000,
-                          .sunZenithAngle = sza * degree,
-                          .viewZenithAngle = 80 * degree,
-                          .relativeAzimuth = 0.2,
-                          .wavelength = 2};
+        const Query query{
+            .altitude = 2000, .sunZenithAngle = sza * degree, .viewZenithAngle = 80 * degree, .relativeAzimuth = 0.2, .wavelength = 2};
         const double single = reference.radiance(query, fixed(2, 1)).single;
         const Result paths = reference.singleByPaths(query, fixed(65536));
         INFO("sun zenith angle " << sza << ": " << paths.multiple / single << " +- " << paths.multipleStderr / single);
@@ -214,8 +201,7 @@ TEST_CASE("empty air and air that only absorbs: nothing but the ground shines")
         const Result r = reference.radiance(fromAbove(mu, mu0), fixed(4096));
         CHECK(r.single == 0);
         CHECK(r.multiple == 0);
-        CHECK(r.groundDirect ==
-              Approx(albedo / pi * mu0 * std::exp(-depth * (1 / mu + 1 / mu0))).epsilon(1e-6).margin(1e-300));
+        CHECK(r.groundDirect == Approx(albedo / pi * mu0 * std::exp(-depth * (1 / mu + 1 / mu0))).epsilon(1e-6).margin(1e-300));
     }
 }
 
@@ -232,8 +218,7 @@ TEST_CASE("camera at, above and far above the top of the atmosphere")
 {
     const Reference reference(test::sampleEarth(test::Aerosol::No));
     const auto seenFrom = [&](double altitude, double vza) {
-        return reference.radiance(
-            {.altitude = altitude, .sunZenithAngle = 0.7, .viewZenithAngle = vza, .wavelength = 1}, fixed(2048));
+        return reference.radiance({.altitude = altitude, .sunZenithAngle = 0.7, .viewZenithAngle = vza, .wavelength = 1}, fixed(2048));
     };
     CHECK(seenFrom(400e3, pi).single == Approx(seenFrom(120e3, pi).single).epsilon(1e-9));
     CHECK(seenFrom(400e3, pi).groundDirect == Approx(seenFrom(120e3, pi).groundDirect).epsilon(1e-9));
@@ -279,8 +264,7 @@ TEST_CASE("queries and media outside their range are refused by name")
     auto medium = test::flatLayer(1, 1, 0, test::isotropicPhase);
     const Reference reference(medium);
     CHECK_THROWS_WITH(reference.radiance({.altitude = -1}, {}), Catch::Contains("camera altitude -1 m"));
-    CHECK_THROWS_WITH(reference.radiance({.wavelength = 1}, {}),
-                      Catch::Contains("wavelength index 1: expected 0 to 0"));
+    CHECK_THROWS_WITH(reference.radiance({.wavelength = 1}, {}), Catch::Contains("wavelength index 1: expected 0 to 0"));
     medium.species[0].numberDensity = {1, -1};
     CHECK_THROWS_AS(Reference(medium), RangeError);
     CHECK_THROWS_WITH(Reference(medium), Catch::Contains("number density of `particles`"));
@@ -289,16 +273,9 @@ TEST_CASE("queries and media outside their range are refused by name")
 TEST_CASE("a table of rows has the columns of the published tables")
 {
     std::ostringstream out;
-    const Query query{.altitude = 2000,
-                      .sunZenithAngle = 94 * degree,
-                      .viewZenithAngle = 89.5 * degree,
-                      .relativeAzimuth = 45 * degree};
-    writeCsv(
-        out,
-        {{"earth", 4, query, {.single = 0.25, .multiple = 0.125, .multipleStderr = 0.001}}, {"thin", 0, query, {}}},
-        {391.3333});
-    CHECK(out.str() ==
-          "atmosphere,orders,altitude_m,sza_deg,vza_deg,relaz_deg,lambda_nm,L1_per_sr,Lms_per_sr,Lms_stderr,L0_per_sr\n"
-          "earth,4,2000,94,89.5,45,391.333,2.50000000e-01,1.25000000e-01,1.000e-03,0.00000000e+00\n"
-          "thin,all,2000,94,89.5,45,391.333,0.00000000e+00,0.00000000e+00,0.000e+00,0.00000000e+00\n");
+    const Query query{.altitude = 2000, .sunZenithAngle = 94 * degree, .viewZenithAngle = 89.5 * degree, .relativeAzimuth = 45 * degree};
+    writeCsv(out, {{"earth", 4, query, {.single = 0.25, .multiple = 0.125, .multipleStderr = 0.001}}, {"thin", 0, query, {}}}, {391.3333});
+    CHECK(out.str() == "atmosphere,orders,altitude_m,sza_deg,vza_deg,relaz_deg,lambda_nm,L1_per_sr,Lms_per_sr,Lms_stderr,L0_per_sr\n"
+                       "earth,4,2000,94,89.5,45,391.333,2.50000000e-01,1.25000000e-01,1.000e-03,0.00000000e+00\n"
+                       "thin,all,2000,94,89.5,45,391.333,0.00000000e+00,0.00000000e+00,0.000e+00,0.00000000e+00\n");
 }

@@ -11,8 +11,7 @@
 using namespace sky;
 using namespace sky::montecarlo;
 
-namespace
-{
+namespace {
 
 double tableAt(const physics::Medium& medium, int wavelength, double altitude)
 {
@@ -62,8 +61,7 @@ TEST_CASE("vertical optical depths of the sample atmosphere")
                                0.04828 + 0.00533 + 0.01562};
     for (int i = 0; i < 4; ++i) {
         const Profile profile(medium, i);
-        CHECK(profile.opticalDepthToSpace(rayAt(profile, 0, 1)) ==
-              Approx(expected[i]).margin(1.5e-5)); // rounded to 5 digits
+        CHECK(profile.opticalDepthToSpace(rayAt(profile, 0, 1)) == Approx(expected[i]).margin(1.5e-5)); // rounded to 5 digits
         CHECK(profile.shellCount() <= 64);
     }
 }

@@ -4,10 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-namespace sky::test
-{
-namespace
-{
+namespace sky::test {
+namespace {
 
 using std::numbers::pi;
 
@@ -30,8 +28,7 @@ std::vector<double> tabulated(const std::vector<double>& nodes, const std::funct
 }
 
 /// The same phase function at every wavelength.
-std::vector<double> achromatic(const std::vector<double>& angles, std::size_t wavelengths,
-                               const std::function<double(double)>& f)
+std::vector<double> achromatic(const std::vector<double>& angles, std::size_t wavelengths, const std::function<double(double)>& f)
 {
     std::vector<double> values;
     for (const double angle : angles)
@@ -67,14 +64,8 @@ double aerosolPhase(double angle)
 
 } // namespace
 
-double isotropicPhase(double)
-{
-    return 1 / (4 * pi);
-}
-double rayleighPhase(double angle)
-{
-    return 3 / (16 * pi) * (1 + std::cos(angle) * std::cos(angle));
-}
+double isotropicPhase(double) { return 1 / (4 * pi); }
+double rayleighPhase(double angle) { return 3 / (16 * pi) * (1 + std::cos(angle) * std::cos(angle)); }
 
 physics::Medium sampleEarth(Aerosol aerosol)
 {
@@ -96,15 +87,14 @@ physics::Medium sampleEarth(Aerosol aerosol)
     for (const double kink : {8e3, 21.5e3, 39e3})
         medium.altitudes.push_back(kink);
     std::sort(medium.altitudes.begin(), medium.altitudes.end());
-    medium.altitudes.erase(std::unique(medium.altitudes.begin(), medium.altitudes.end(),
-                                       [](double a, double b) { return std::abs(a - b) < 1e-6; }),
-                           medium.altitudes.end());
+    medium.altitudes.erase(
+        std::unique(medium.altitudes.begin(), medium.altitudes.end(), [](double a, double b) { return std::abs(a - b) < 1e-6; }),
+        medium.altitudes.end());
     medium.scatteringAngles = sampleAngles();
 
     physics::Species molecules = named("molecules");
     molecules.numberDensity = tabulated(medium.altitudes, [](double h) { return 3.08458e25 * std::exp(-h / 8e3); });
-    molecules.extinctionCrossSection =
-        tabulated(medium.wavelengthsNm, [](double nm) { return 0.04022e-30 * std::pow(nm / 1000, -4); });
+    molecules.extinctionCrossSection = tabulated(medium.wavelengthsNm, [](double nm) { return 0.04022e-30 * std::pow(nm / 1000, -4); });
     molecules.singleScatteringAlbedo.assign(4, 1.0);
     molecules.phaseFunction = achromatic(medium.scatteringAngles, 4, rayleighPhase);
     molecules.achromatic = molecules.smooth = true;

@@ -5,8 +5,7 @@
 
 #include <functional>
 
-namespace sky::test
-{
+namespace sky::test {
 
 enum class Aerosol { No, Yes };
 

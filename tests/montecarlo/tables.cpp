@@ -15,8 +15,7 @@
 using namespace sky;
 using namespace sky::montecarlo;
 
-namespace
-{
+namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
@@ -57,8 +56,7 @@ TEST_CASE("agrees with Monte Carlo tables by other code within the noise of both
     int days = 0;
     for (const Row& row : rows) {
         const Reference& reference = row.atmosphere == "earth" ? earth : thin;
-        const Result r =
-            reference.radiance(row.query, {.orders = row.orders, .relativeError = 0, .maxPaths = 32768, .seed = 11});
+        const Result r = reference.radiance(row.query, {.orders = row.orders, .relativeError = 0, .maxPaths = 32768, .seed = 11});
         INFO(row.atmosphere << " orders " << row.orders << " altitude " << row.query.altitude << " sza "
                             << row.query.sunZenithAngle / degree << " vza " << row.query.viewZenithAngle / degree);
         // The tables promise 1e-4, and 2e-4 where a ray grazes the ground.
@@ -78,8 +76,8 @@ TEST_CASE("agrees with Monte Carlo tables by other code within the noise of both
         }
     }
     const double count = static_cast<double>(rows.size());
-    INFO("mean z " << sum / count << ", mean z^2 " << squares / count << ", day: mean deviation " << day / days
-                   << " +- " << std::sqrt(dayVariance) / days);
+    INFO("mean z " << sum / count << ", mean z^2 " << squares / count << ", day: mean deviation " << day / days << " +- "
+                   << std::sqrt(dayVariance) / days);
     CHECK(std::abs(sum / count) < 3 / std::sqrt(count));
     CHECK(std::abs(squares / count - 1) < 3 * std::sqrt(2 / count)); // variance of a chi-square of `count`
     CHECK(std::abs(day) < 3 * std::sqrt(dayVariance));
@@ -103,8 +101,7 @@ TEST_CASE("speed of the judge", "[.speed]")
         std::cout << earth.medium().wavelengthsNm[static_cast<std::size_t>(i)] << " nm\n";
         timed("  day, zenith (SZA 45)", {.sunZenithAngle = 45 * degree, .wavelength = i}, {.relativeError = 1e-3});
         timed("  sunset, 5 degrees above the horizon (SZA 90)",
-              {.sunZenithAngle = 90 * degree, .viewZenithAngle = 85 * degree, .wavelength = i},
-              {.relativeError = 1e-3});
+              {.sunZenithAngle = 90 * degree, .viewZenithAngle = 85 * degree, .wavelength = i}, {.relativeError = 1e-3});
         timed("  twilight, zenith (SZA 96)", {.sunZenithAngle = 96 * degree, .wavelength = i}, {.relativeError = 1e-2});
     }
 }

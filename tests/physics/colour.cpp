@@ -96,9 +96,7 @@ TEST_CASE("colour temperature: daylight by its name, none for green and black")
 
 TEST_CASE("sRGB: its white and its primaries")
 {
-    const auto light = [](double x, double y, double luminance) {
-        return XYZ{luminance * x / y, luminance, luminance * (1 - x - y) / y};
-    };
+    const auto light = [](double x, double y, double luminance) { return XYZ{luminance * x / y, luminance, luminance * (1 - x - y) / y}; };
     const auto white = linearSrgb(light(0.3127, 0.3290, 1));
     for (const double component : white)
         CHECK(component == Approx(1).margin(1e-9));

@@ -14,10 +14,8 @@ namespace {
 /// The textbook's area of two circular segments in extended precision: good where the lune isn't thin.
 long double textbookLune(long double a, long double b, long double d)
 {
-    const long double sun = std::acos((d * d + a * a - b * b) / (2 * d * a)),
-                      moon = std::acos((d * d + b * b - a * a) / (2 * d * b));
-    const long double lens =
-        a * a * (sun - std::sin(sun) * std::cos(sun)) + b * b * (moon - std::sin(moon) * std::cos(moon));
+    const long double sun = std::acos((d * d + a * a - b * b) / (2 * d * a)), moon = std::acos((d * d + b * b - a * a) / (2 * d * b));
+    const long double lens = a * a * (sun - std::sin(sun) * std::cos(sun)) + b * b * (moon - std::sin(moon) * std::cos(moon));
     return 1 - lens / (std::acos(-1.L) * a * a);
 }
 
@@ -157,8 +155,7 @@ TEST_CASE("eclipse: places and angles of both discs from any point of the air")
     const auto moon = placeOfBody(bodies.planet, 0, bodies.moonDirection, bodies.moonDistance);
     CHECK(std::hypot(moon[0], moon[1], moon[2] + 6371e3) == Approx(371925e3).epsilon(1e-14));
     const auto single = singlePrecision(shadow);
-    for (const std::array<double, 3>& p :
-         {std::array{0., 0., 0.}, {3e5, -2e5, 5e4}, {-1.1e6, 4e5, -3e4}, {0., 1.2e6, 1e5}}) {
+    for (const std::array<double, 3>& p : {std::array{0., 0., 0.}, {3e5, -2e5, 5e4}, {-1.1e6, 4e5, -3e4}, {0., 1.2e6, 1e5}}) {
         std::array<long double, 3> toSun{}, toMoon{};
         long double sunSquare = 0, moonSquare = 0, product = 0;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -173,8 +170,7 @@ TEST_CASE("eclipse: places and angles of both discs from any point of the air")
         const auto discs = shadow.discs(p);
         CAPTURE(p[0], p[1], p[2]);
         CHECK(discs.separation == Approx(separation).epsilon(1e-8));
-        CHECK(discs.moonRadius ==
-              Approx(std::asin(1737.4e3 / static_cast<double>(std::sqrt(moonSquare)))).epsilon(1e-12));
+        CHECK(discs.moonRadius == Approx(std::asin(1737.4e3 / static_cast<double>(std::sqrt(moonSquare)))).epsilon(1e-12));
         CHECK(discs.sunRadius == Approx(bodies.sunAngularRadius).epsilon(1e-5));
         const std::array<float, 3> q{static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])};
         // A metre of the shadow's place is 3e-9 rad.
@@ -195,8 +191,7 @@ TEST_CASE("eclipse: single precision keeps the light of every point of the air")
             // Along the Moon's path and up through the air, finest next to the camera.
             const double x = 4e6 * std::pow((i - 2000) / 2000., 5), z = (i % 13) * 8e3;
             const double exact = shadow.visible({0.3 * x, x, z});
-            const float rounded =
-                single.visible({static_cast<float>(0.3 * x), static_cast<float>(x), static_cast<float>(z)});
+            const float rounded = single.visible({static_cast<float>(0.3 * x), static_cast<float>(x), static_cast<float>(z)});
             worst = std::max(worst, std::abs(double(rounded) - exact));
         }
         CAPTURE(moonDistance);
@@ -211,11 +206,9 @@ TEST_CASE("eclipse: 21 August 2017, elements and sizes as published")
     const double centre = shadow.depthOf({0, 0, -equatorialRadius});
     // Besselian elements l1, l2 at greatest eclipse, 0.4445 h after their epoch, in Earth radii; the sum of all
     // rounding in the published parallax and semi-diameter is 0.15 km.
-    const double t = 0.4445, l1 = 0.542093 + 0.0001241 * t - 0.0000118 * t * t,
-                 l2 = -0.004025 + 0.0001234 * t - 0.0000117 * t * t;
+    const double t = 0.4445, l1 = 0.542093 + 0.0001241 * t - 0.0000118 * t * t, l2 = -0.004025 + 0.0001234 * t - 0.0000117 * t * t;
     CHECK(shadow.umbraRadius(centre) == Approx(-l2 * equatorialRadius).margin(150));
-    CHECK(makeShadow(greatestEclipse2017(0.272488)).penumbraRadius(centre) ==
-          Approx(l1 * equatorialRadius).margin(300));
+    CHECK(makeShadow(greatestEclipse2017(0.272488)).penumbraRadius(centre) == Approx(l1 * equatorialRadius).margin(300));
 
     const GroundShadow ground = groundShadow(shadow, bodies);
     REQUIRE(ground.central);
@@ -240,8 +233,7 @@ TEST_CASE("eclipse: umbra and penumbra on the ground are where the light ends an
     const auto sun = placeOfBody(bodies.planet, 0, bodies.sunDirection, bodies.sunDistance);
     const double toMoon = std::hypot(moon[0], moon[1], moon[2]), toSun = std::hypot(sun[0], sun[1], sun[2]);
     const double solar = toSun * std::sin(bodies.sunAngularRadius), lunar = bodies.moonRadius;
-    const double inner = std::asin((solar - lunar) / (toSun - toMoon)),
-                 outer = std::asin((solar + lunar) / (toSun - toMoon));
+    const double inner = std::asin((solar - lunar) / (toSun - toMoon)), outer = std::asin((solar + lunar) / (toSun - toMoon));
     CHECK(ground.umbraRadius == Approx((lunar / std::sin(inner) - toMoon) * std::tan(inner)).epsilon(1e-9));
     CHECK(ground.penumbraRadius == Approx((lunar / std::sin(outer) + toMoon) * std::tan(outer)).epsilon(1e-9));
     CHECK(ground.umbraRadius == Approx(50e3).margin(5e3));
@@ -260,9 +252,7 @@ TEST_CASE("eclipse: light at a place is continuous and symmetric in time, throug
 {
     for (const double moonDistance : {371925e3, 380160e3, 400000e3}) { // total, barely total, annular
         CAPTURE(moonDistance);
-        const auto at = [&](double offset) {
-            return makeShadow(sampleEclipse(offset, moonDistance)).visible({0, 0, 0});
-        };
+        const auto at = [&](double offset) { return makeShadow(sampleEclipse(offset, moonDistance)).visible({0, 0, 0}); };
         const int steps = 8000;
         double before = 1;
         for (int i = 0; i <= steps; ++i) {

@@ -151,7 +151,8 @@ TEST_CASE("geometry: altitude along a ray")
             // Terms that may cancel, over the sum of the radii: metres, far below the size of an atom in most cases.
             const double terms = s.altitude * (s.altitude + 2 * s.planet.radius) + d * (d + 2 * r * std::abs(s.mu));
             INFO("R " << s.planet.radius << " H " << s.planet.topOfAtmosphere << " h " << s.altitude << " mu " << s.mu << " s " << d);
-            REQUIRE(std::abs(altitudeAlong(s.planet, s.altitude, s.mu, d) - truth) <= 4 * epsilon * (terms / (2 * s.planet.radius) + truth) + 1e-33 * s.planet.radius); // the truth's
+            REQUIRE(std::abs(altitudeAlong(s.planet, s.altitude, s.mu, d) - truth) <=
+                    4 * epsilon * (terms / (2 * s.planet.radius) + truth) + 1e-33 * s.planet.radius); // the truth's
         }
     }
 }
@@ -244,8 +245,7 @@ TEST_CASE("visible part of the disc: half at the edge, whole and none a radius a
         }
         // A thin lune: area (4/3) sqrt(2) eps^1.5 of the unit circle.
         const double lune = 1e-6;
-        CHECK(visibleDiscFraction((-1 + lune) * radius, radius) ==
-              Approx(4. / 3 * std::sqrt(2.) * std::pow(lune, 1.5) / pi).epsilon(1e-5));
+        CHECK(visibleDiscFraction((-1 + lune) * radius, radius) == Approx(4. / 3 * std::sqrt(2.) * std::pow(lune, 1.5) / pi).epsilon(1e-5));
     }
     CHECK(visibleDiscFraction(-1e-300, 0) == 0);
     CHECK(visibleDiscFraction(1e-300, 0) == 1);

@@ -1,6 +1,6 @@
 // Light of a glowing ground: closed forms and laws. Monte Carlo judges it in tests/montecarlo/ground_light.cpp.
-#include "physics/glow_light.hpp"
 #include "media.hpp"
+#include "physics/glow_light.hpp"
 #include <catch2/catch.hpp>
 
 using namespace sky::physics;
@@ -24,7 +24,8 @@ struct Glow {
     {
         RayTracer tracer(profile, optics);
         std::vector<double> result(medium.wavelengthCount());
-        GlowLight(medium, optics, field.total).seen(tracer.cells(altitude, mu, hitsGround(profile.planet(), altitude, mu), GlowLight::deepest), result.data());
+        GlowLight(medium, optics, field.total)
+            .seen(tracer.cells(altitude, mu, hitsGround(profile.planet(), altitude, mu), GlowLight::deepest), result.data());
         return result[wavelength];
     }
     /// Net upward flux, per radiance of the ground: Y_10 = sqrt(3 / 4 pi) mu, and light that is seen below goes up.
@@ -115,7 +116,8 @@ TEST_CASE("ground glow: scenes at the edges stay finite and positive")
                 const double radiance = glow.radiance(altitude, mu);
                 CHECK(std::isfinite(radiance));
                 CHECK(radiance >= 0);
-                CHECK(radiance < 160); // air of depth t over white ground that glows holds 1 + 3/4 t in the diffusion limit: 151 at most here
+                CHECK(radiance <
+                      160); // air of depth t over white ground that glows holds 1 + 3/4 t in the diffusion limit: 151 at most here
             }
     }
 }

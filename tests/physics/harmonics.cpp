@@ -1,6 +1,6 @@
 #include "physics/harmonics.hpp"
-#include "physics/quadrature.hpp"
 #include "media.hpp"
+#include "physics/quadrature.hpp"
 #include <catch2/catch.hpp>
 #include <cmath>
 

@@ -16,8 +16,7 @@ double brute(double exponent, double b, double d)
         const double r = (i + 0.5) / rings, light = r * std::pow(1 - r * r, 0.5 * exponent);
         int left = 0;
         for (int k = 0; k < sectors; ++k) {
-            const double x = r * std::cos(2 * pi * (k + 0.5) / sectors) - d,
-                         y = r * std::sin(2 * pi * (k + 0.5) / sectors);
+            const double x = r * std::cos(2 * pi * (k + 0.5) / sectors) - d, y = r * std::sin(2 * pi * (k + 0.5) / sectors);
             left += x * x + y * y > b * b;
         }
         seen += light * left;

@@ -1,8 +1,8 @@
 // Limits in which the radiation field is known: flat and deep, conservative, empty.
-#include "physics/source_iteration.hpp"
 #include "media.hpp"
 #include "physics/harmonics.hpp"
 #include "physics/quadrature.hpp"
+#include "physics/source_iteration.hpp"
 #include "physics/table_axes.hpp"
 #include <catch2/catch.hpp>
 
@@ -151,7 +151,8 @@ TEST_CASE("energy: a whole planet of conservative air and white ground returns a
     settings.azimuths = 4;
     const Medium medium = sky::test::exponentialAir(0.3, 1, sky::test::rayleighPhase);
     const Planet p{medium.planetRadius, medium.topOfAtmosphere};
-    const Solution planet(medium, settings, altitudeNodes(p, settings.altitudes), -0.65, 12); // each event leaves less than half: 2e-4 to come
+    const Solution planet(medium, settings, altitudeNodes(p, settings.altitudes), -0.65,
+                          12); // each event leaves less than half: 2e-4 to come
     const double R = p.radius, rTop = p.radius + p.topOfAtmosphere;
 
     // Caught: the disc of the planet, and beside it what the limb does not let through, in units of pi R^2.

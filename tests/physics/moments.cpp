@@ -2,8 +2,8 @@
 #include "media.hpp"
 #include "physics/directions.hpp"
 #include "physics/optics.hpp"
-#include <catch2/catch.hpp>
 #include <algorithm>
+#include <catch2/catch.hpp>
 
 using namespace sky::physics;
 using sky::test::pi;

@@ -1,6 +1,6 @@
 // The moments against Monte Carlo tables made by other code: sky radiance, single scattering included, all rows of a regime.
-#include "physics/source_iteration.hpp"
 #include "media.hpp"
+#include "physics/source_iteration.hpp"
 #include "reference_table.hpp"
 #include <catch2/catch.hpp>
 

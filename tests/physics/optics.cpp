@@ -1,6 +1,6 @@
 #include "physics/optics.hpp"
-#include "physics/harmonics.hpp"
 #include "media.hpp"
+#include "physics/harmonics.hpp"
 #include <catch2/catch.hpp>
 
 using namespace sky::physics;

@@ -260,11 +260,13 @@ TEST_CASE("rays: planets from 100 km to 10 Gm, atmospheres from 1 m to 1000 km, 
     for (const double radius : {1e5, 6.4e6, 1e10})
         for (const double top : {1., 1e3, 1e6})
             for (const double depth : {0., 1e-3, 1000.}) {
-                Air air(withDensity(sky::test::layer(depth, 1, 0, sky::test::isotropicPhase, radius, top), {0, 0.5 * top, top}, {1, 0.1, 1e-3}));
+                Air air(withDensity(sky::test::layer(depth, 1, 0, sky::test::isotropicPhase, radius, top), {0, 0.5 * top, top},
+                                    {1, 0.1, 1e-3}));
                 const Planet& p = air.profile.planet();
                 for (const double h : {0., 1e-4 * top, 0.5 * top, std::nextafter(top, 0.), top}) {
                     const double horizon = horizonMu(p, h);
-                    for (const double mu : {-1., horizon - 1e-9, std::nextafter(horizon, -2.), horizon, std::nextafter(horizon, 1.), -1e-12, 0., 1e-3, 1.}) {
+                    for (const double mu :
+                         {-1., horizon - 1e-9, std::nextafter(horizon, -2.), horizon, std::nextafter(horizon, 1.), -1e-12, 0., 1e-3, 1.}) {
                         if (mu < -1)
                             continue;
                         const RayNodes ray = air.trace(h, mu, 12);

@@ -37,8 +37,8 @@ inline std::vector<ReferenceRow> referenceTable(const std::string& name)
         while (std::getline(cells, cell, ','))
             v.push_back(std::stod(cell));
         const double degree = 3.14159265358979323846 / 180;
-        rows.push_back({v.at(0), v.at(1), v.at(2), v.at(3), static_cast<int>(std::lround((v.at(4) - 391.333) / 94)), v.at(5),
-                        v.at(6), v.at(7), std::cos(v[2] * degree), std::cos(v[1] * degree)});
+        rows.push_back({v.at(0), v.at(1), v.at(2), v.at(3), static_cast<int>(std::lround((v.at(4) - 391.333) / 94)), v.at(5), v.at(6),
+                        v.at(7), std::cos(v[2] * degree), std::cos(v[1] * degree)});
     }
     return rows;
 }

@@ -1,6 +1,6 @@
-#include "physics/sky.hpp"
 #include "media.hpp"
 #include "physics/quadrature.hpp"
+#include "physics/sky.hpp"
 #include "reference_table.hpp"
 #include <catch2/catch.hpp>
 #include <functional>
@@ -18,8 +18,8 @@ struct Sky {
     SkyEvaluator evaluator;
     RayTracer tracer;
     explicit Sky(Medium m)
-        : medium(std::move(m)), profile(medium), optics(makeOptics(medium, 4, false)),
-          sun(profile, optics, medium.sunAngularRadius), evaluator(medium, profile, optics, sun), tracer(profile, optics)
+        : medium(std::move(m)), profile(medium), optics(makeOptics(medium, 4, false)), sun(profile, optics, medium.sunAngularRadius),
+          evaluator(medium, profile, optics, sun), tracer(profile, optics)
     {
     }
     Sky(const Sky&) = delete;

@@ -6,8 +6,7 @@
 
 using namespace sky::physics;
 
-namespace
-{
+namespace {
 
 double apply(const Stencil& s, const std::function<double(int)>& value)
 {
@@ -82,8 +81,7 @@ TEST_CASE("stencil: exponentials are exact in logarithms, and stay positive wher
 {
     for (double x = 0; x <= 5; x += 0.1) {
         const Stencil s = uniformStencil(x, 6);
-        CHECK(interpolateLog(s, gathered(s, [](int i) { return std::exp(-4. * i); })) ==
-              Approx(std::exp(-4 * x)).epsilon(1e-12));
+        CHECK(interpolateLog(s, gathered(s, [](int i) { return std::exp(-4. * i); })) == Approx(std::exp(-4 * x)).epsilon(1e-12));
         CHECK(interpolateLog(s, gathered(s, [](int i) { return i < 3 ? 1. : 1e-12; })) > 0);
     }
 }

@@ -7,8 +7,7 @@
 
 using namespace sky::physics;
 
-namespace
-{
+namespace {
 
 constexpr double pi = 3.14159265358979323846;
 const Planet earth{6.371e6, 120e3}, shallow{1e10, 1.}, swollen{1e5, 1e6};
@@ -74,8 +73,7 @@ TEST_CASE("table axes: a Sun on a node is at that node's index")
                 REQUIRE(suns.size() == 32);
                 for (int k = 0; k < 32; ++k) {
                     INFO("depth " << depth << " h " << h << " node " << k);
-                    CHECK(sunElevationPosition(planet, h, vDark, 32, suns[k]) ==
-                          Approx(k).margin(1e-9)); // roundings of asinh and sinh
+                    CHECK(sunElevationPosition(planet, h, vDark, 32, suns[k]) == Approx(k).margin(1e-9)); // roundings of asinh and sinh
                 }
                 CHECK(suns.back() == Approx(pi / 2));
                 // The dark end is `depth` below the horizon of the ground, and in proportion to the range above it

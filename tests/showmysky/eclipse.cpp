@@ -24,8 +24,7 @@ SceneSettings eclipse(double sunZenithDeg, double apartDeg, double moonDistance 
     return settings;
 }
 
-std::vector<Luminance> drawn(Sky& sky, const SceneSettings& settings, const Camera& camera = panorama(),
-                             int width = 120)
+std::vector<Luminance> drawn(Sky& sky, const SceneSettings& settings, const Camera& camera = panorama(), int width = 120)
 {
     sky.setSettings(settings);
     sky.draw(camera, width, width / 2);
@@ -144,12 +143,9 @@ TEST_CASE("eclipse: no rings around the Sun in a totality of two seconds", "[gl]
     const auto picture = drawn(sky, settings, camera, width);
     const auto at = [&](double x, double y) {
         const int i = static_cast<int>(x), k = static_cast<int>(y);
-        const auto pixel = [&](int a, int b) {
-            return static_cast<double>(picture[static_cast<std::size_t>(b * width + a)].y);
-        };
+        const auto pixel = [&](int a, int b) { return static_cast<double>(picture[static_cast<std::size_t>(b * width + a)].y); };
         const double u = x - i, v = y - k;
-        return (1 - v) * ((1 - u) * pixel(i, k) + u * pixel(i + 1, k)) +
-               v * ((1 - u) * pixel(i, k + 1) + u * pixel(i + 1, k + 1));
+        return (1 - v) * ((1 - u) * pixel(i, k) + u * pixel(i + 1, k)) + v * ((1 - u) * pixel(i, k + 1) + u * pixel(i + 1, k + 1));
     };
     for (const auto& [dx, dy] : {std::pair{1., 0.}, {-1., 0.}, {0.707, 0.4}, {-0.6, -0.45}}) {
         CAPTURE(dx, dy);
@@ -213,8 +209,7 @@ TEST_CASE("eclipse: twice symmetric, continuous while the Moon passes, the shado
     settings = eclipse(30, 0);
     settings.altitude = 400e3;
     sky.setSettings(settings);
-    const double inShadow = alone(sky, settings.sun.azimuth + pi, pi - 30 * degree),
-                 outside = alone(sky, settings.sun.azimuth, 2.0);
+    const double inShadow = alone(sky, settings.sun.azimuth + pi, pi - 30 * degree), outside = alone(sky, settings.sun.azimuth, 2.0);
     CHECK(inShadow < 0.05 * outside);
 }
 
@@ -226,8 +221,7 @@ TEST_CASE("eclipse: light from the table is that of the discs")
     bodies.sunDistance = 1.514e11;
     bodies.sunAngularRadius = 695700e3 / bodies.sunDistance;
     const std::vector<double> wavelengths{400, 500, 600, 700};
-    const std::vector<Texel> weights{
-        {1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}; // a colour for each wavelength
+    const std::vector<Texel> weights{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}; // a colour for each wavelength
     const sky::physics::LimbDarkening law(wavelengths);
     for (const double distance : {371925e3, 380200e3, 400000e3})
         for (const bool darkened : {false, true}) {
@@ -239,8 +233,7 @@ TEST_CASE("eclipse: light from the table is that of the discs")
                 for (int k = 0; k < 5; ++k) {
                     const double x = 3e6 * std::pow(i / 300., 3), z = 3e4 * k;
                     const std::array<double, 3> p{x, 0.2 * x, z};
-                    const Texel got =
-                        light.at({static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
+                    const Texel got = light.at({static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
                     const auto discs = shadow.discs(p);
                     std::vector<double> expected(4, sky::physics::visibleFraction(discs));
                     if (darkened)
@@ -303,8 +296,7 @@ TEST_CASE("eclipse: the photometer answers as the renderer's pixel does", "[gl]"
         const auto expected = sky.spectralRadiance(directionOf(2, zenithAngle));
         for (std::size_t w = 0; w < answer.size(); ++w)
             CHECK(answer[w] == Approx(expected[w]).epsilon(5e-3)); // tables of sunlight of two sizes
-        CHECK(photometer.obscuration(view, settings.moon) ==
-              Approx(sky.eclipseState(settings).obscuration).epsilon(1e-12));
+        CHECK(photometer.obscuration(view, settings.moon) == Approx(sky.eclipseState(settings).obscuration).epsilon(1e-12));
     }
     // The same in C.
     showmysky_photometer* plain = nullptr;
@@ -313,8 +305,7 @@ TEST_CASE("eclipse: the photometer answers as the renderer's pixel does", "[gl]"
     showmysky_moon place{settings.moon.azimuth, settings.moon.zenithAngle, settings.moon.distance};
     std::vector<double> inC(answer.size());
     double share = 0;
-    CHECK(showmysky_photometer_eclipsed_radiance(plain, &view, &place, 1, SHOWMYSKY_WHOLE_SKY, inC.data()) ==
-          SHOWMYSKY_PHOTOMETRY_OK);
+    CHECK(showmysky_photometer_eclipsed_radiance(plain, &view, &place, 1, SHOWMYSKY_WHOLE_SKY, inC.data()) == SHOWMYSKY_PHOTOMETRY_OK);
     CHECK(inC == answer);
     CHECK(showmysky_photometer_obscuration(plain, &view, &place, &share) == SHOWMYSKY_PHOTOMETRY_OK);
     CHECK(share == Approx(sky.eclipseState(settings).obscuration).epsilon(1e-12));

@@ -1,7 +1,7 @@
 // The model's table of an eclipse's higher orders against the same light followed on the fly.
 
-#include "../calcmysky/process.hpp"
 #include "model/eclipse_table.hpp"
+#include "../calcmysky/process.hpp"
 #include "showmysky/photometry.hpp"
 #include "showmysky/sky.h"
 #include "sky_for_tests.hpp"
@@ -142,9 +142,10 @@ TEST_CASE("eclipse table: probe looks it up where it holds")
         sky::test::Run what;
         what.arguments = {SHOWMYSKY, "probe", SHOWMYSKY_ECLIPSE, "-", "--layers", "multiple"};
         what.arguments.insert(what.arguments.end(), options.begin(), options.end());
-        what.input = std::string("altitude_m,sun_zenith_deg,sun_azimuth_deg,view_zenith_deg,view_azimuth_deg,moon_zenith_deg,moon_azimuth_deg,"
-                                 "earth_moon_distance_m\n0,55,10,60,120,") +
-                     moonZenith + ",10,371925000\n";
+        what.input =
+            std::string("altitude_m,sun_zenith_deg,sun_azimuth_deg,view_zenith_deg,view_azimuth_deg,moon_zenith_deg,moon_azimuth_deg,"
+                        "earth_moon_distance_m\n0,55,10,60,120,") +
+            moonZenith + ",10,371925000\n";
         return sky::test::run(what);
     };
     const auto luminance = [](const sky::test::Outcome& outcome) {

@@ -59,8 +59,7 @@ Shown shown(Sky& sky, const Golden& golden)
             const sky::physics::XYZ xyz{static_cast<double>(pixel.x) / golden.white, static_cast<double>(pixel.y) / golden.white,
                                         static_cast<double>(pixel.z) / golden.white};
             for (const double channel : sky::physics::linearSrgb(xyz))
-                result.rgb.push_back(static_cast<std::uint8_t>(
-                    std::lround(255 * sky::physics::encodeSrgb(std::clamp(channel, 0., 1.)))));
+                result.rgb.push_back(static_cast<std::uint8_t>(std::lround(255 * sky::physics::encodeSrgb(std::clamp(channel, 0., 1.)))));
         }
     return result;
 }

@@ -75,8 +75,7 @@ std::map<std::string, std::vector<GLint>> snapshot(const gl::Api& api)
                               GL_READ_BUFFER})
         ask(std::to_string(what), what);
     if (!api.isEs())
-        for (const GLenum what :
-             {GL_FRAMEBUFFER_SRGB, GL_COLOR_LOGIC_OP, GL_DEPTH_CLAMP, GL_PROGRAM_POINT_SIZE, GL_MULTISAMPLE})
+        for (const GLenum what : {GL_FRAMEBUFFER_SRGB, GL_COLOR_LOGIC_OP, GL_DEPTH_CLAMP, GL_PROGRAM_POINT_SIZE, GL_MULTISAMPLE})
             ask("desktop " + std::to_string(what), what);
     GLint unit = 0;
     api->GetIntegerv(GL_ACTIVE_TEXTURE, &unit);

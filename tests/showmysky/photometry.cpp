@@ -1,8 +1,8 @@
 // Photometry without OpenGL, against its double twin, closed forms, laws and the Monte Carlo tables.
 
+#include "showmysky/photometry.h"
 #include "../physics/reference_table.hpp"
 #include "photometry_model.hpp"
-#include "showmysky/photometry.h"
 #include "showmysky/photometry.hpp"
 #include <catch2/catch.hpp>
 #include <filesystem>
@@ -112,8 +112,8 @@ TEST_CASE("photometry: single scattering agrees with tables of other code")
         const Photometer::View view{row.altitude, row.sza * degree, 0, row.vza * degree, row.azimuth * degree};
         const auto w = static_cast<std::size_t>(1 + 3 * row.wavelength);
         REQUIRE(wavelengths[w] == Approx(391.333 + 94 * row.wavelength).epsilon(1e-4));
-        const double found = radiance(fast(), view, Photometer::singleScattering | Photometer::multipleScattering)[w] /
-                             fast().solarIrradiance()[w];
+        const double found =
+            radiance(fast(), view, Photometer::singleScattering | Photometer::multipleScattering)[w] / fast().solarIrradiance()[w];
         const double expected = row.single + row.multiple;
         sum += (found / expected - 1) * (found / expected - 1);
         ++count;
@@ -254,8 +254,8 @@ TEST_CASE("photometry: bad arguments and models are refused with a sentence")
 {
     std::vector<double> spectrum(fast().wavelengthsNm().size());
     const double nan = std::nan("");
-    for (const Photometer::View view : {Photometer::View{-1, 0, 0, 0, 0}, {nan, 0, 0, 0, 0}, {0, 4, 0, 0, 0}, {0, 0, nan, 0, 0},
-                                        {0, 0, 0, -0.1, 0}, {0, 0, 0, nan, 0}})
+    for (const Photometer::View view :
+         {Photometer::View{-1, 0, 0, 0, 0}, {nan, 0, 0, 0, 0}, {0, 4, 0, 0, 0}, {0, 0, nan, 0, 0}, {0, 0, 0, -0.1, 0}, {0, 0, 0, nan, 0}})
         CHECK(kindOf([&] { fast().radiance(view, Photometer::wholeSky, spectrum.data()); }) == ErrorKind::settings);
     const Photometer::View up;
     CHECK(kindOf([&] { fast().cityRadiance(&up, 1, {{0, 0, -1, 1, {}}}, spectrum.data()); }) == ErrorKind::settings);
@@ -286,7 +286,8 @@ TEST_CASE("photometry: plain C answers the same and fails by status")
     std::vector<double> spectra(2 * count);
     const showmysky_view views[2] = {{0, 1, 0, 0.5, 2}, {2000, 1.5, 0, 1.7, 2}};
     REQUIRE(showmysky_photometer_radiance(p, views, 2, SHOWMYSKY_WHOLE_SKY, spectra.data()) == SHOWMYSKY_PHOTOMETRY_OK);
-    CHECK(std::vector<double>(spectra.begin(), spectra.begin() + static_cast<std::ptrdiff_t>(count)) == radiance(fast(), {0, 1, 0, 0.5, 2}));
+    CHECK(std::vector<double>(spectra.begin(), spectra.begin() + static_cast<std::ptrdiff_t>(count)) ==
+          radiance(fast(), {0, 1, 0, 0.5, 2}));
     double colour[8], one[4];
     REQUIRE(showmysky_photometer_luminance(p, views, 2, SHOWMYSKY_WHOLE_SKY, colour) == SHOWMYSKY_PHOTOMETRY_OK);
     REQUIRE(showmysky_photometer_colour(p, &spectra[count], one) == SHOWMYSKY_PHOTOMETRY_OK);

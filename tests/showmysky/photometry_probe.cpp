@@ -107,10 +107,14 @@ TEST_CASE("probe: bad rows are named by line and column")
     CHECK(outcome.exitCode == 2);
     CHECK(outcome.output.empty());
     const auto lines = split(outcome.error, '\n');
-    const std::vector<std::string> expected{":2:8: the line has 4 cells; the header has 5.", ":3:3: sun_zenith_deg is \"x\"",
-                                            ":4:1: altitude_m is -1; expected 0 or more.", ":5:6: sun_azimuth_deg is empty",
-                                            ":6:8: view_zenith_deg is 181; expected 0 to 180.", ":7:8: view_zenith_deg is \"nan\"",
-                                            ":8:8: view_zenith_deg is \"4 5\"", ":9:11: the line has 6 cells"};
+    const std::vector<std::string> expected{":2:8: the line has 4 cells; the header has 5.",
+                                            ":3:3: sun_zenith_deg is \"x\"",
+                                            ":4:1: altitude_m is -1; expected 0 or more.",
+                                            ":5:6: sun_azimuth_deg is empty",
+                                            ":6:8: view_zenith_deg is 181; expected 0 to 180.",
+                                            ":7:8: view_zenith_deg is \"nan\"",
+                                            ":8:8: view_zenith_deg is \"4 5\"",
+                                            ":9:11: the line has 6 cells"};
     REQUIRE(lines.size() == expected.size());
     for (std::size_t i = 0; i < lines.size(); ++i)
         CHECK_THAT(lines[i], Catch::StartsWith("standard input" + expected[i]));

@@ -14,8 +14,7 @@ TEST_CASE("picture: a pixel has the luminance of its spectrum on the CPU", "[gl]
     struct Case {
         double altitude, sunZenithDeg;
     };
-    for (const auto& [altitude, sunZenithDeg] :
-         {Case{0, 30}, Case{0, 85}, Case{0, 94}, Case{2000, 60}, Case{20e3, 91}, Case{300e3, 70}}) {
+    for (const auto& [altitude, sunZenithDeg] : {Case{0, 30}, Case{0, 85}, Case{0, 94}, Case{2000, 60}, Case{20e3, 91}, Case{300e3, 70}}) {
         CAPTURE(altitude, sunZenithDeg);
         sky.setSettings(scene(altitude, sunZenithDeg));
         sky.draw(panorama(), 96, 48);

@@ -68,9 +68,11 @@ void main()
     if (dot(wanted, wanted) > 0.0)
         d = wanted;
     colour = )" + expression + ";\n}\n";
-        return gl::ProgramBuilder(api, [&](std::string_view path) -> std::string_view {
-                   return path == "host.frag" ? std::string_view(fragment) : sky::shaders::source("render/triangle.vert");
-               })
+        return gl::ProgramBuilder(api,
+                                  [&](std::string_view path) -> std::string_view {
+                                      return path == "host.frag" ? std::string_view(fragment)
+                                                                 : sky::shaders::source("render/triangle.vert");
+                                  })
             .graphics("host", "host.vert", "host.frag");
     }
 
@@ -80,10 +82,7 @@ void main()
     gl::Program program_;
 };
 
-double relative(float a, float b)
-{
-    return std::abs(static_cast<double>(a) / static_cast<double>(b) - 1);
-}
+double relative(float a, float b) { return std::abs(static_cast<double>(a) / static_cast<double>(b) - 1); }
 
 } // namespace
 
@@ -180,24 +179,24 @@ TEST_CASE("shader functions: no air at no distance, all of the sky at any great 
             double altitude, zenith;
         };
         for (const auto& [altitude, zenith] : {Case{0, 30}, Case{900, 95}, Case{15e3, 60}, Case{400e3, 70}}) {
-                CAPTURE(context->api().versionText(), altitude, zenith);
-                sky.setSettings(scene(altitude, zenith));
-                const auto sees = radiance.draw(sky), nothing = none.draw(sky), everything = all.draw(sky);
-                const auto one = clear.draw(sky), some = through.draw(sky);
-                double worst = 0;
-                std::size_t right = 0;
-                for (std::size_t i = 0; i < sees.size(); ++i) {
-                    // The ground adds to what the air before it scatters.
-                    right += nothing[i].y == 0 && one[i].y == 1 && some[i].y >= 0 && some[i].y <= 1 &&
-                             everything[i].y <= sees[i].y * 1.002f + 1e-12f;
-                    const double elevation = (static_cast<double>(i / 48) + 0.5) / 24 * 180 - 90;
-                    const double horizon = physics::horizonElevation({sky.planetRadius(), sky.topOfAtmosphere()}, altitude) / degree;
-                    if (elevation > horizon && sees[i].y > 1e-6f)
-                        worst = std::max(worst, relative(everything[i].y, sees[i].y));
-                }
-                CHECK(right == sees.size());
-                CHECK(worst < 2e-3); // half floats of ES; desktop shares are 1 exactly
+            CAPTURE(context->api().versionText(), altitude, zenith);
+            sky.setSettings(scene(altitude, zenith));
+            const auto sees = radiance.draw(sky), nothing = none.draw(sky), everything = all.draw(sky);
+            const auto one = clear.draw(sky), some = through.draw(sky);
+            double worst = 0;
+            std::size_t right = 0;
+            for (std::size_t i = 0; i < sees.size(); ++i) {
+                // The ground adds to what the air before it scatters.
+                right += nothing[i].y == 0 && one[i].y == 1 && some[i].y >= 0 && some[i].y <= 1 &&
+                         everything[i].y <= sees[i].y * 1.002f + 1e-12f;
+                const double elevation = (static_cast<double>(i / 48) + 0.5) / 24 * 180 - 90;
+                const double horizon = physics::horizonElevation({sky.planetRadius(), sky.topOfAtmosphere()}, altitude) / degree;
+                if (elevation > horizon && sees[i].y > 1e-6f)
+                    worst = std::max(worst, relative(everything[i].y, sees[i].y));
             }
+            CHECK(right == sees.size());
+            CHECK(worst < 2e-3); // half floats of ES; desktop shares are 1 exactly
+        }
     }
 }
 

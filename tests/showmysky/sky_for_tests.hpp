@@ -43,14 +43,10 @@ inline SceneSettings scene(double altitude, double sunZenithDeg, Source source =
 }
 
 /// The whole sphere, the Sun a little off the middle.
-inline Camera panorama()
-{
-    return {Projection::equirectangular, 360 * degree, 0, 0, 0};
-}
+inline Camera panorama() { return {Projection::equirectangular, 360 * degree, 0, 0, 0}; }
 
 /// Relative differences in luminance where `reference` is above `floor` times its largest, sorted.
-inline std::vector<double> differences(const std::vector<Luminance>& picture, const std::vector<Luminance>& reference,
-                                       double floor = 1e-6)
+inline std::vector<double> differences(const std::vector<Luminance>& picture, const std::vector<Luminance>& reference, double floor = 1e-6)
 {
     float largest = 0;
     for (const auto& pixel : reference)

@@ -19,11 +19,10 @@ namespace {
 SceneText blueAir()
 {
     SceneText scene;
-    scene.species =
-        "Scatterer \"air\":\n{\n  number density:\n  ```\n  return 3.08458e25*exp(-altitude/(8.0*km));\n  ```\n"
-        "  phase function:\n  ```\n  return vec4(3.0/(16.0*PI)*(1.0+sqr(dotViewSun)));\n  ```\n"
-        "  phase function type: smooth\n  cross section at 1 um: 0.04022 fm^2\n  angstrom exponent: 4\n}\n" +
-        SceneText::dust();
+    scene.species = "Scatterer \"air\":\n{\n  number density:\n  ```\n  return 3.08458e25*exp(-altitude/(8.0*km));\n  ```\n"
+                    "  phase function:\n  ```\n  return vec4(3.0/(16.0*PI)*(1.0+sqr(dotViewSun)));\n  ```\n"
+                    "  phase function type: smooth\n  cross section at 1 um: 0.04022 fm^2\n  angstrom exponent: 4\n}\n" +
+                    SceneText::dust();
     return scene;
 }
 
@@ -46,8 +45,8 @@ struct Twin {
     physics::RayTracer tracer;
     explicit Twin(const model::Model& model)
         : medium(model::readMedium(model)), profile(medium), optics(model::readOptics(model, medium)),
-          sun(profile, optics, medium.sunAngularRadius), moments(model::readMoments(model)),
-          sky(medium, profile, optics, sun), tracer(profile, optics)
+          sun(profile, optics, medium.sunAngularRadius), moments(model::readMoments(model)), sky(medium, profile, optics, sun),
+          tracer(profile, optics)
     {
     }
     Twin(const Twin&) = delete;
@@ -76,8 +75,7 @@ struct Deviation {
         Twin twin(run.model);
         const auto& table = run.model.table("multiple-scattering");
         const auto& planet = twin.profile.planet();
-        const int suns = static_cast<int>(table.axes[1].nodes.size()),
-                  views = static_cast<int>(table.axes[2].nodes.size());
+        const int suns = static_cast<int>(table.axes[1].nodes.size()), views = static_cast<int>(table.axes[2].nodes.size());
         const auto azimuths = table.axes[3].nodes;
         const double vDark = table.axes[1].mapping.parameters.at("vDark");
         const auto air = run.model.readAll("single-scattering/air"), dust = run.model.readAll("single-scattering/dust");
@@ -94,8 +92,7 @@ struct Deviation {
                     const auto scattered = twin.tracer.trace(h, mus[view], multipleNodes, view < views / 2, physics::NodesFor::Field);
                     for (const double phi : azimuths) {
                         const double mu = mus[view], muSun = std::sin(e);
-                        const double nu = std::clamp(
-                            mu * muSun + std::sqrt((1 - mu * mu) * (1 - muSun * muSun)) * std::cos(phi), -1., 1.);
+                        const double nu = std::clamp(mu * muSun + std::sqrt((1 - mu * mu) * (1 - muSun * muSun)) * std::cos(phi), -1., 1.);
                         std::fill(one.begin(), one.end(), 0.);
                         std::fill(more.begin(), more.end(), 0.);
                         twin.sky.singleAlong(direct, muSun, nu, true, one.data());
@@ -105,9 +102,8 @@ struct Deviation {
                             if (e - physics::horizonElevation(planet, h) < lowestSunDeg * 3.14159265358979323846 / 180)
                                 continue;
                             const double light = twin.medium.solarIrradiance[w];
-                            const auto where = "h " + std::to_string(h) + " Sun " + std::to_string(e) + " view " +
-                                               std::to_string(view) + " phi " + std::to_string(phi) + " w " +
-                                               std::to_string(w);
+                            const auto where = "h " + std::to_string(h) + " Sun " + std::to_string(e) + " view " + std::to_string(view) +
+                                               " phi " + std::to_string(phi) + " w " + std::to_string(w);
                             single.see(double(air[at]) + double(dust[at]) * phase[w], one[w] * light, floor, where);
                             multiple.see(double(texels[at]), more[w] * light, floor, where);
                         }
@@ -162,8 +158,7 @@ TEST_CASE("baked tables: a texel is the CPU's quadrature of the same nodes, and 
     CHECK(same.multiple.deviation < 2e-2); // moments of a finer axis, linearly, where the twin is cubic
     const Deviation many(run, 300, 60, -4, 0.02);
     INFO("many nodes: single at " << many.single.place << ", multiple at " << many.multiple.place);
-    CHECK(many.single.deviation <
-          0.1); // the horizon seen from the top of the air: the longest rays, the thinnest shadow
+    CHECK(many.single.deviation < 0.1); // the horizon seen from the top of the air: the longest rays, the thinnest shadow
     CHECK(many.multiple.deviation < 5e-2);
 }
 
@@ -190,9 +185,8 @@ TEST_CASE("baked tables: read at a node they give the node", "[gl]")
         for (int sun = 1; sun < 5; ++sun) {
             const auto slice = table.slice(h, suns[sun]);
             for (std::size_t c = 0; c < columns; ++c)
-                CHECK(double(slice[c]) == Approx(double(values[(std::size_t(layer) * 5 + sun) * columns + c]))
-                                              .epsilon(1e-5)
-                                              .margin(1e-12 * double(brightest)));
+                CHECK(double(slice[c]) ==
+                      Approx(double(values[(std::size_t(layer) * 5 + sun) * columns + c])).epsilon(1e-5).margin(1e-12 * double(brightest)));
         }
     }
 }
@@ -241,12 +235,10 @@ TEST_CASE("baked tables: wavelengths don't know of each other, be they many or f
         return scene.parse();
     };
     {
-        const Run twenty(*context, with(20, 780), exact()),
-            ten(*context, with(10, 760), exact()); // 20 nm steps, 40 nm steps
+        const Run twenty(*context, with(20, 780), exact()), ten(*context, with(10, 760), exact()); // 20 nm steps, 40 nm steps
         compareWavelengths(ten, twenty, 2, 0.03);
     }
-    const Run five(*context, with(5, 700), exact()), three(*context, with(3, 700), exact()),
-        one(*context, with(1, 400), exact());
+    const Run five(*context, with(5, 700), exact()), three(*context, with(3, 700), exact()), one(*context, with(1, 400), exact());
     compareWavelengths(three, five, 2, 0.03);
     compareWavelengths(one, five, 1, 0.03);
 }
@@ -270,8 +262,7 @@ TEST_CASE("baked tables: types of phase functions differ in how single scatterin
     CHECK(run.model.table("single-scattering/general").channels == model::Channels::SpectralRadiance);
     CHECK(run.model.table("single-scattering/achromatic").channels == model::Channels::Luminance);
     CHECK(run.model.table("single-scattering/smooth").channels == model::Channels::Luminance);
-    const auto general = run.model.readAll("single-scattering/general"),
-               achromatic = run.model.readAll("single-scattering/achromatic"),
+    const auto general = run.model.readAll("single-scattering/general"), achromatic = run.model.readAll("single-scattering/achromatic"),
                smooth = run.model.readAll("single-scattering/smooth");
     const auto weights = physics::luminanceWeights(run.model.manifest().wavelengthsNm);
     const auto& spec = run.model.table("single-scattering/smooth");

@@ -14,7 +14,8 @@ namespace {
 atmo::Description scene()
 {
     SceneText text;
-    text.species = SceneText::rayleigh() + SceneText::dust() + text.absorber() + "light pollution relative radiance: " + text.all("1") + "\n";
+    text.species =
+        SceneText::rayleigh() + SceneText::dust() + text.absorber() + "light pollution relative radiance: " + text.all("1") + "\n";
     text.views = "8", text.azimuths = "4", text.suns = "8";
     return text.parse();
 }

@@ -52,8 +52,7 @@ TEST_CASE("edge scene: smoke that only absorbs has a transmittance and no sky", 
     CHECK(tableNames(run.model) == std::set<std::string>{"medium", "transmittance", "irradiance-direct"});
     // Vertical optical depth 1e5 x 1e-10 x 8000 = 0.08 but for what is above 100 km: last view of the first altitude.
     const auto t = run.model.readAll("transmittance");
-    CHECK(double(t[3 * 2]) ==
-          Approx(std::exp(-0.08 * (1 - std::exp(-12.5)))).epsilon(1e-4)); // densities to 1e-4 and 3e-4
+    CHECK(double(t[3 * 2]) == Approx(std::exp(-0.08 * (1 - std::exp(-12.5)))).epsilon(1e-4)); // densities to 1e-4 and 3e-4
 }
 
 TEST_CASE("edge scene: scatterers that scatter nothing cost nothing", "[gl]")
@@ -73,8 +72,7 @@ TEST_CASE("edge scene: scatterers that scatter nothing cost nothing", "[gl]")
     scene.species = SceneText::dust("general", "single scattering albedo: 0, 0");
     const Run black(*context, scene.parse());
     checkValues(black.model);
-    CHECK(tableNames(black.model) ==
-          std::set<std::string>{"medium", "phase-functions", "transmittance", "irradiance-direct"});
+    CHECK(tableNames(black.model) == std::set<std::string>{"medium", "phase-functions", "transmittance", "irradiance-direct"});
     CHECK(double(black.model.readAll("transmittance")[3 * 2]) == Approx(std::exp(-0.05)).epsilon(1e-4));
 }
 
@@ -87,9 +85,8 @@ TEST_CASE("edge scene: one order makes single scattering only", "[gl]")
     scene.orders = "1";
     const Run run(*context, scene.parse());
     checkValues(run.model);
-    CHECK(tableNames(run.model) == std::set<std::string>{"medium", "phase-functions", "transmittance",
-                                                         "irradiance-direct", "irradiance-diffuse",
-                                                         "single-scattering/air"});
+    CHECK(tableNames(run.model) == std::set<std::string>{"medium", "phase-functions", "transmittance", "irradiance-direct",
+                                                         "irradiance-diffuse", "single-scattering/air"});
     CHECK(run.model.manifest().scatteringOrders == 1);
 }
 
@@ -146,8 +143,7 @@ TEST_CASE("edge scene: a Sun that fills the sky, and one that is a point", "[gl]
         const Run run(*context, scene.parse());
         checkValues(run.model);
         CHECK(largest(run.model, "multiple-scattering") > 0);
-        const auto direct =
-            run.model.readAll("irradiance-direct"); // on the ground, Sun at the zenith; half a degree of disc
+        const auto direct = run.model.readAll("irradiance-direct"); // on the ground, Sun at the zenith; half a degree of disc
         CHECK(double(direct[3 * 2]) == Approx(1.5 * std::exp(-0.12)).epsilon(1e-3));
     }
 }
@@ -184,8 +180,7 @@ TEST_CASE("edge scene: one wavelength, and a Sun without light", "[gl]")
     std::size_t brightest = 0; // texel
     for (std::size_t texel = 0; texel < xyz.size() / 4; ++texel)
         brightest = xyz[texel * 4 + 1] > xyz[brightest * 4 + 1] ? texel : brightest;
-    CHECK(double(xyz[brightest * 4] / xyz[brightest * 4 + 1]) ==
-          Approx(weights[0][0] / weights[0][1]).epsilon(2e-3)); // 11 bits
+    CHECK(double(xyz[brightest * 4] / xyz[brightest * 4 + 1]) == Approx(weights[0][0] / weights[0][1]).epsilon(2e-3)); // 11 bits
     auto night = scene.parse();
     night.solarIrradiance = {0};
     const Run dark(*context, night);
@@ -211,6 +206,7 @@ TEST_CASE("edge scene: light scattered once knows nothing of its phase function 
     for (const double sun : {0.3, 1.4, 1.6})
         for (const double view : {0.1, 1., 1.5}) {
             const model::SkyGeometry place{0, sun, view, 2};
-            CHECK(peaked->radiance(place).single[0] == Approx(0.5 * even->radiance(place).single[0]).epsilon(0.003)); // the tabulated peak's integral
+            CHECK(peaked->radiance(place).single[0] ==
+                  Approx(0.5 * even->radiance(place).single[0]).epsilon(0.003)); // the tabulated peak's integral
         }
 }

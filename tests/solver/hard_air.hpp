@@ -154,7 +154,8 @@ struct World {
             for (const double elevation : {-1., -0.1, 0.02, 0.2, 0.7, 1.4}) {
                 const double h = share * medium.topOfAtmosphere, mu = std::sin(elevation);
                 const bool ground = physics::hitsGround(profile.planet(), h, mu);
-                const auto direct = tracer.trace(h, mu, scaled(96, fineness), ground), later = tracer.trace(h, mu, scaled(24, fineness), ground, physics::NodesFor::Field);
+                const auto direct = tracer.trace(h, mu, scaled(96, fineness), ground),
+                           later = tracer.trace(h, mu, scaled(24, fineness), ground, physics::NodesFor::Field);
                 for (int s = 0; s <= 20; ++s)
                     for (const double phi : {0.5, 1.5, 2.5}) {
                         const double e = 1.5 + s / 20. * (grid.lowestElevation() - 1.5) * (2 - s / 20.);
@@ -172,7 +173,8 @@ private:
     static int scaled(int count, double fineness) { return static_cast<int>(std::lround(count * fineness)); }
     static physics::MomentSettings scaled(physics::MomentSettings s, double fineness)
     {
-        for (int* count : {&s.altitudes, &s.suns, &s.groundDirections, &s.limbDirections, &s.skyDirections, &s.azimuths, &s.directNodes, &s.nodes})
+        for (int* count :
+             {&s.altitudes, &s.suns, &s.groundDirections, &s.limbDirections, &s.skyDirections, &s.azimuths, &s.directNodes, &s.nodes})
             *count = scaled(*count, fineness);
         return s;
     }

@@ -77,8 +77,7 @@ double largestKink(const std::vector<std::vector<std::array<double, 2>>>& xy)
 
 } // namespace
 
-TEST_CASE("interpolation guides: the belt of Venus keeps its colours between the nodes of a small model",
-          "[gl][slow][guides]")
+TEST_CASE("interpolation guides: the belt of Venus keeps its colours between the nodes of a small model", "[gl][slow][guides]")
 {
     auto context = gl::testing::context();
     if (!context)
@@ -108,8 +107,7 @@ TEST_CASE("interpolation guides: the belt of Venus keeps its colours between the
             physics::XYZ xyz{};
             for (std::size_t w = 0; w < weights.size(); ++w)
                 for (int c = 0; c < 3; ++c)
-                    xyz[c] += (radiance.single[w] + radiance.multiple[w]) * run.model.manifest().solarIrradiance[w] *
-                              weights[w][c];
+                    xyz[c] += (radiance.single[w] + radiance.multiple[w]) * run.model.manifest().solarIrradiance[w] * weights[w][c];
             const auto table = physics::chromaticity(colours[v]), truth = physics::chromaticity(xyz);
             REQUIRE((table && truth));
             fromTextures.back().push_back(*table);
@@ -120,11 +118,10 @@ TEST_CASE("interpolation guides: the belt of Venus keeps its colours between the
         }
     }
     const double kinkTextures = largestKink(fromTextures), kinkMoments = largestKink(fromMoments);
-    WARN("CIE xy, largest deviation of textures from moments: "
-         << deviation << " (luminance: " << 100 * brightness
-         << " %)\n"
-            "largest second difference of xy per 0.05 degrees of the Sun: textures "
-         << kinkTextures << ", moments " << kinkMoments);
+    WARN("CIE xy, largest deviation of textures from moments: " << deviation << " (luminance: " << 100 * brightness
+                                                                << " %)\n"
+                                                                   "largest second difference of xy per 0.05 degrees of the Sun: textures "
+                                                                << kinkTextures << ", moments " << kinkMoments);
     // Measured 0.013 and 0.0010: docs/interpolation-guides.md.
     CHECK(deviation < 0.018);
     CHECK(kinkTextures < 0.002);

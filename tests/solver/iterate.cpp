@@ -23,7 +23,10 @@ struct World {
     }
     World(const World&) = delete;
     solver::Scene scene() const { return {medium, profile, optics, sun}; }
-    physics::Moments twin(int events) const { return iterateSource(medium, profile, optics, sun, grid, settings, events, solver::sweepRefinement); }
+    physics::Moments twin(int events) const
+    {
+        return iterateSource(medium, profile, optics, sun, grid, settings, events, solver::sweepRefinement);
+    }
 
 private:
     std::vector<double> largest() const
@@ -69,8 +72,8 @@ Difference difference(const physics::Moments& a, const physics::Moments& b, doub
                 (i < a.wavelengths ? d.logarithm : d.ratio) =
                     std::max(i < a.wavelengths ? d.logarithm : d.ratio, std::abs(a.at(h, j)[i] - b.at(h, j)[i]));
             for (int w = 0; w < a.wavelengths; ++w)
-                d.ground = std::max(d.ground, std::abs(std::log(a.groundIrradiance[j * a.wavelengths + w] /
-                                                                b.groundIrradiance[j * a.wavelengths + w])));
+                d.ground = std::max(
+                    d.ground, std::abs(std::log(a.groundIrradiance[j * a.wavelengths + w] / b.groundIrradiance[j * a.wavelengths + w])));
         }
     return d;
 }
@@ -85,10 +88,11 @@ TEST_CASE("iteration on the GPU agrees with its twin in double precision, event 
     for (const auto aerosol : {test::Aerosol::No, test::Aerosol::Yes}) {
         const World world(test::sampleEarth(aerosol), smallSettings(aerosol == test::Aerosol::No ? 2 : 4));
         double progress = 0;
-        const auto field = solver::iterate(context->api(), world.scene(), world.grid, world.settings, {4, false, 0}, true, [&](double fraction) {
-            CHECK(fraction >= progress - 1e-12);
-            progress = fraction;
-        });
+        const auto field =
+            solver::iterate(context->api(), world.scene(), world.grid, world.settings, {4, false, 0}, true, [&](double fraction) {
+                CHECK(fraction >= progress - 1e-12);
+                progress = fraction;
+            });
         CHECK(progress == 1);
         CHECK(field.eventCount == 3);
         REQUIRE(field.perEvent.size() == 3);
@@ -114,7 +118,8 @@ TEST_CASE("iteration: all orders are more than four and no more than the remaind
     CHECK(all.eventCount > 4);
     CHECK(all.remainder < 1e-3);
     CHECK(all.perEvent.empty());
-    const auto many = solver::iterate(context->api(), world.scene(), world.grid, world.settings, {all.eventCount + 6, false, 0}, false, quiet);
+    const auto many =
+        solver::iterate(context->api(), world.scene(), world.grid, world.settings, {all.eventCount + 6, false, 0}, false, quiet);
     // The series was closed: what five more events add differs from the estimate by less than the remainder.
     const Difference d = difference(all.total, many.total, 0);
     CHECK(d.logarithm < 1e-3);

@@ -70,7 +70,7 @@ TEST_CASE("light pollution: the ground itself has the luminance 1, from near by"
     const model::GlowTable table(run.model);
     CHECK(table.isLuminance());
     const auto ground = table.slice(0);
-    CHECK(ground[1] == Approx(1).epsilon(1e-6)); // Y towards the nadir, from the ground
+    CHECK(ground[1] == Approx(1).epsilon(1e-6));                             // Y towards the nadir, from the ground
     CHECK(ground[(table.views() - 1) * 4 + 1] == Approx(0.08).margin(0.03)); // optical depth 0.12 above, half the sphere, more orders
     double value[4];
     table.sample(ground, 0, -0.3, value);

@@ -1,10 +1,10 @@
 // Descriptions become tables: densities and phase functions as their formulas say, and errors that point into the description.
-#include "solver/medium_tables.hpp"
 #include "../atmo/sample.hpp"
 #include "../gl/context_for_tests.hpp"
 #include "base/error.hpp"
 #include "physics/harmonics.hpp"
 #include "physics/profile.hpp"
+#include "solver/medium_tables.hpp"
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -85,7 +85,8 @@ TEST_CASE("medium: a density that is no number or negative is named with its alt
     if (!context)
         return;
     std::vector<std::string> warnings;
-    for (const std::string code : {"return 1e9 - altitude*1e5;", "return altitude > 50e3 ? sqrt(50e3 - altitude) : 1.0;", "return 1.0/(altitude*0.0);"}) {
+    for (const std::string code :
+         {"return 1e9 - altitude*1e5;", "return altitude > 50e3 ? sqrt(50e3 - altitude) : 1.0;", "return 1.0/(altitude*0.0);"}) {
         const auto text = sample::with(molecules, code);
         INFO(code);
         try {
@@ -140,7 +141,8 @@ TEST_CASE("medium: a phase function that does not integrate to one is rescaled, 
     if (!context)
         return;
     std::vector<std::string> warnings;
-    const auto medium = solver::evaluateMedium(sample::parse(sample::with(rayleigh, "return vec4(1.5/(4.0*PI));")), context->api(), warnings);
+    const auto medium =
+        solver::evaluateMedium(sample::parse(sample::with(rayleigh, "return vec4(1.5/(4.0*PI));")), context->api(), warnings);
     REQUIRE(warnings.size() == 1);
     CHECK_THAT(warnings[0], Catch::Contains("\"molecules\"") && Catch::Contains("integrates to 1.5") && Catch::Contains("instead of 1"));
     CHECK(physics::phaseMoments(medium, medium.species[0], 0, 0)[0] == Approx(1).epsilon(1e-9));

@@ -57,9 +57,8 @@ TEST_CASE("options: a model holds the parts that were asked for, and says what i
     const Run all(*context, description);
     CHECK(tableNames(all.model) == everything);
     CHECK_FALSE(all.listener.fell);
-    CHECK(all.listener.stages == std::vector<std::string>{"medium", "sunlight", "moments", "transmittance",
-                                                          "irradiance", "single scattering", "multiple scattering",
-                                                          "eclipses", "writing"});
+    CHECK(all.listener.stages == std::vector<std::string>{"medium", "sunlight", "moments", "transmittance", "irradiance",
+                                                          "single scattering", "multiple scattering", "eclipses", "writing"});
 }
 
 TEST_CASE("options: a range of altitude layers is those layers of the whole model", "[gl]")
@@ -80,8 +79,7 @@ TEST_CASE("options: a range of altitude layers is those layers of the whole mode
         const auto a = some.model.readAll(name), b = whole.model.readRows(name, 4, 12);
         REQUIRE(a.size() == b.size());
         for (std::size_t i = 0; i < a.size(); ++i)
-            CHECK(double(a[i]) ==
-                  Approx(double(b[i])).epsilon(1e-3).margin(1e-6 * double(*std::max_element(b.begin(), b.end()))));
+            CHECK(double(a[i]) == Approx(double(b[i])).epsilon(1e-3).margin(1e-6 * double(*std::max_element(b.begin(), b.end()))));
     }
 }
 
@@ -116,8 +114,7 @@ TEST_CASE("options: fewer significand bits make smaller files of nearly the same
         for (const float v : exact)
             largest = std::max(largest, double(v));
         for (std::size_t i = 0; i < values.size(); ++i) // half a unit of the last bit
-            CHECK(double(values[i]) ==
-                  Approx(double(exact[i])).epsilon(1.01 * std::ldexp(1., -bits)).margin(1e-8 * largest));
+            CHECK(double(values[i]) == Approx(double(exact[i])).epsilon(1.01 * std::ldexp(1., -bits)).margin(1e-8 * largest));
     }
 }
 
@@ -160,14 +157,12 @@ TEST_CASE("options: intermediate tables are saved on request, and orders add up"
     const Run run(*context, SceneText().parse(), options);
     checkValues(run.model);
     CHECK(tableNames(run.model) ==
-          std::set<std::string>{
-              "medium", "phase-functions", "irradiance-direct", "irradiance-diffuse", "irradiance-order-1",
-              "irradiance-order-2", "multiple-scattering", "scattering-density/order-2", "scattering-density/order-3",
-              "scattering-density/order-2-from-ground", "delta-scattering/order-2", "delta-scattering/order-3",
-              "accumulated-scattering/order-2", "accumulated-scattering/order-3"});
+          std::set<std::string>{"medium", "phase-functions", "irradiance-direct", "irradiance-diffuse", "irradiance-order-1",
+                                "irradiance-order-2", "multiple-scattering", "scattering-density/order-2", "scattering-density/order-3",
+                                "scattering-density/order-2-from-ground", "delta-scattering/order-2", "delta-scattering/order-3",
+                                "accumulated-scattering/order-2", "accumulated-scattering/order-3"});
     const auto read = [&](const std::string& name) { return run.model.readAll(name); };
-    const auto total = read("multiple-scattering"), two = read("delta-scattering/order-2"),
-               three = read("delta-scattering/order-3");
+    const auto total = read("multiple-scattering"), two = read("delta-scattering/order-2"), three = read("delta-scattering/order-3");
     CHECK(read("accumulated-scattering/order-2") == two);
     const auto accumulated = read("accumulated-scattering/order-3");
     double largest = 0;
@@ -178,8 +173,7 @@ TEST_CASE("options: intermediate tables are saved on request, and orders add up"
         CHECK(double(accumulated[i]) == Approx(double(total[i])).epsilon(1e-4).margin(1e-7 * largest));
         CHECK(double(two[i]) + double(three[i]) == Approx(double(total[i])).epsilon(5e-3).margin(1e-6 * largest));
     }
-    const auto diffuse = read("irradiance-diffuse"), one = read("irradiance-order-1"),
-               second = read("irradiance-order-2");
+    const auto diffuse = read("irradiance-diffuse"), one = read("irradiance-order-1"), second = read("irradiance-order-2");
     for (std::size_t i = 0; i < diffuse.size(); ++i)
         CHECK(double(one[i]) + double(second[i]) == Approx(double(diffuse[i])).epsilon(0.02).margin(1e-9));
     // Light from the ground is a part of all light that is scattered anew.

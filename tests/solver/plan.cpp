@@ -143,8 +143,7 @@ TEST_CASE("plan: the size on disk is estimated to within a factor of three", "[g
         if (entry.path().string().find("scattering") != std::string::npos && entry.is_regular_file())
             writtenTables += fs::file_size(entry.path());
     }
-    INFO("planned " << planned << " written " << written << "; 4D tables planned " << plannedTables << " written "
-                    << writtenTables);
+    INFO("planned " << planned << " written " << written << "; 4D tables planned " << plannedTables << " written " << writtenTables);
     CHECK(double(planned) / double(written) < 3);
     CHECK(double(planned) / double(written) > 1 / 3.);
     CHECK(double(plannedTables) / double(writtenTables) < 3);

@@ -1,6 +1,6 @@
 // What a tolerance picks: by the kind of air, never cheaper for less error, and said in the manifest.
-#include "hard_air.hpp"
 #include "solver/quality.hpp"
+#include "hard_air.hpp"
 #include "support.hpp"
 
 #include <catch2/catch.hpp>

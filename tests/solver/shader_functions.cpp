@@ -22,12 +22,16 @@ std::vector<float> evaluate(const gl::Api& api, const std::string& include, cons
                              "layout(std430, binding = 0) readonly buffer Inputs { vec4 inputs[]; };\n"
                              "layout(std430, binding = 1) writeonly buffer Results { float results[]; };\n"
                              "uniform int count;\n"
-                             "#include \"" + include + "\"\n"
+                             "#include \"" +
+                             include +
+                             "\"\n"
                              "void main() {\n"
                              "    int i = int(gl_GlobalInvocationID.x);\n"
                              "    if (i >= count) return;\n"
                              "    vec4 x = inputs[i];\n"
-                             "    results[i] = " + expression + ";\n"
+                             "    results[i] = " +
+                             expression +
+                             ";\n"
                              "}\n";
     const auto source = [&](std::string_view path) { return path == "test.comp" ? std::string_view(text) : shaders::source(path); };
     gl::Program program = gl::ProgramBuilder(api, source).compute("shader function", "test.comp");
@@ -137,11 +141,13 @@ TEST_CASE("shader: axes of the tables over the Sun's elevation", "[gl]")
         const physics::MomentGrid grid({6.371e6, 120e3}, {0, 120e3}, -0.45, 33, scale);
         std::vector<Vec4> moments;
         for (const double e : elevations)
-            moments.push_back({static_cast<float>(e), static_cast<float>(scale), static_cast<float>(std::sinh(scale)), static_cast<float>(grid.vLowest())});
+            moments.push_back({static_cast<float>(e), static_cast<float>(scale), static_cast<float>(std::sinh(scale)),
+                               static_cast<float>(grid.vLowest())});
         const auto values = evaluate(context->api(), "lib/sun.glsl", "momentAxis(x.x, x.yzw)", moments);
         for (std::size_t i = 0; i < moments.size(); ++i) {
             INFO("elevation " << moments[i][0] << " scale " << scale);
-            CHECK(double(values[i]) == Approx(grid.sunPosition(double(moments[i][0])) / 32).margin(1e-6)); // a hundredth of a texel of 32 would be 3e-4
+            CHECK(double(values[i]) ==
+                  Approx(grid.sunPosition(double(moments[i][0])) / 32).margin(1e-6)); // a hundredth of a texel of 32 would be 3e-4
         }
     }
     std::vector<Vec4> sun;
@@ -149,13 +155,15 @@ TEST_CASE("shader: axes of the tables over the Sun's elevation", "[gl]")
         for (const double horizon : {0., -0.0018, -0.19})
             for (const double radius : {0., 0.0046}) {
                 const double range = std::asinh((pi / 2 - horizon + radius) / physics::SunTable::elevationScale);
-                sun.push_back({static_cast<float>(e), static_cast<float>(horizon), static_cast<float>(radius), static_cast<float>(1 / range)});
+                sun.push_back(
+                    {static_cast<float>(e), static_cast<float>(horizon), static_cast<float>(radius), static_cast<float>(1 / range)});
             }
     const auto values = evaluate(context->api(), "lib/sun.glsl", "sunAxis(x.x, x.y, x.z, x.w)", sun);
     for (std::size_t i = 0; i < sun.size(); ++i) {
         const double x = std::max(0., double(sun[i][0]) - double(sun[i][1]) + double(sun[i][2]));
         INFO("elevation " << sun[i][0] << " horizon " << sun[i][1]);
-        CHECK(double(values[i]) == Approx(std::min(1., std::asinh(x / physics::SunTable::elevationScale) * double(sun[i][3]))).margin(1e-6));
+        CHECK(double(values[i]) ==
+              Approx(std::min(1., std::asinh(x / physics::SunTable::elevationScale) * double(sun[i][3]))).margin(1e-6));
     }
 }
 

@@ -22,8 +22,8 @@ struct SceneText {
     std::string views = "4", azimuths = "2", suns = "4", altitudes = "2";
     std::string species = rayleigh();
 
-    static std::string scatterer(const std::string& name, const std::string& density, const std::string& phase,
-                                 const std::string& type, const std::string& crossSection, const std::string& more = "")
+    static std::string scatterer(const std::string& name, const std::string& density, const std::string& phase, const std::string& type,
+                                 const std::string& crossSection, const std::string& more = "")
     {
         return "Scatterer \"" + name + "\":\n{\n  number density:\n  ```\n  return " + density +
                ";\n  ```\n  phase function:\n  ```\n  return " + phase + ";\n  ```\n  phase function type: " + type +
@@ -37,8 +37,8 @@ struct SceneText {
     /// Optical depth 0.05; more forward than back, differently at each wavelength.
     static std::string dust(const std::string& type = "general", const std::string& more = "")
     {
-        return scatterer("dust", "5e5*exp(-altitude/(1.0*km))", "(1.0+vec4(0.5)*dotViewSun*wavelengths/700.0)/(4.0*PI)",
-                         type, "100 um^2", more);
+        return scatterer("dust", "5e5*exp(-altitude/(1.0*km))", "(1.0+vec4(0.5)*dotViewSun*wavelengths/700.0)/(4.0*PI)", type, "100 um^2",
+                         more);
     }
     std::string all(const std::string& value) const // a spectrum of equal values
     {
@@ -56,11 +56,10 @@ struct SceneText {
     std::string text() const
     {
         return "version: 6\nEarth radius: " + radius + "\natmosphere height: " + top + "\nEarth-Sun distance: " + sun +
-               "\nEarth-Moon distance: 384400 km\nscattering orders: " + orders +
-               "\nwavelengths: min=" + std::to_string(minNm) + " nm, max=" + std::to_string(maxNm) +
-               " nm, count=" + std::to_string(wavelengths) + "\nsolar irradiance at TOA: " + all("1.5") +
-               "\nground albedo: " + all(albedo) + "\nscattering texture size for VZA: " + views +
-               "\nscattering texture size for dot(view,sun): " + azimuths +
+               "\nEarth-Moon distance: 384400 km\nscattering orders: " + orders + "\nwavelengths: min=" + std::to_string(minNm) +
+               " nm, max=" + std::to_string(maxNm) + " nm, count=" + std::to_string(wavelengths) +
+               "\nsolar irradiance at TOA: " + all("1.5") + "\nground albedo: " + all(albedo) +
+               "\nscattering texture size for VZA: " + views + "\nscattering texture size for dot(view,sun): " + azimuths +
                "\nscattering texture size for SZA: " + suns + "\nscattering texture size for altitude: " + altitudes +
                "\ntransmittance texture size for VZA: 4\ntransmittance texture size for altitude: 3\n"
                "irradiance texture size for SZA: 4\nirradiance texture size for altitude: 2\n"

@@ -66,8 +66,10 @@ TEST_CASE("deep twilight from small tables, brightened a hundred thousand times:
             for (const double azimuth : {0., 1.3, pi}) {
                 double value[4];
                 table.sample(slice, 0, view * degree, azimuth, value);
-                const auto truth = direct.luminance({0, zenith, 0, (90 - view) * degree, azimuth}, showmysky::Photometer::multipleScattering);
-                const auto found = physics::chromaticity({value[0], value[1], value[2]}), wanted = physics::chromaticity({truth.X, truth.Y, truth.Z});
+                const auto truth =
+                    direct.luminance({0, zenith, 0, (90 - view) * degree, azimuth}, showmysky::Photometer::multipleScattering);
+                const auto found = physics::chromaticity({value[0], value[1], value[2]}),
+                           wanted = physics::chromaticity({truth.X, truth.Y, truth.Z});
                 REQUIRE((found && wanted));
                 REQUIRE(std::min({value[0], value[1], value[2], value[3]}) >= 0);
                 for (int c = 0; c < 2; ++c)

@@ -1,8 +1,8 @@
 // Directions, heights and Suns at which other programs showed black pixels, stripes, seams and stairs. docs/stress.md
 
 #include "showmysky/photometry.hpp"
-#include <catch2/catch.hpp>
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 

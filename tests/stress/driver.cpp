@@ -30,8 +30,9 @@ void GLAD_API_PTR keepSource(GLuint shader, GLsizei count, const GLchar* const* 
     GLint kind = 0;
     witness.getShader(shader, GL_SHADER_TYPE, &kind);
     REQUIRE(count == 1);
-    witness.shaders[std::string(*text, static_cast<std::size_t>(*length))] =
-        kind == GL_VERTEX_SHADER ? "vert" : kind == GL_FRAGMENT_SHADER ? "frag" : "comp";
+    witness.shaders[std::string(*text, static_cast<std::size_t>(*length))] = kind == GL_VERTEX_SHADER     ? "vert"
+                                                                             : kind == GL_FRAGMENT_SHADER ? "frag"
+                                                                                                          : "comp";
     witness.shaderSource(shader, count, text, length);
 }
 

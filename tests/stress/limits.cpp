@@ -74,7 +74,7 @@ TEST_CASE("a planet of 400 metres has the sky of the Earth, and so has one of 70
 {
     const auto settings = coarse(2);
     auto air = sky::test::exponentialAir(0.3, 0.4, sky::test::rayleighPhase);
-    air.sunAngularRadius = 0.00465; // the shadow of a point would fall on either side of a node by rounding,
+    air.sunAngularRadius = 0.00465;                        // the shadow of a point would fall on either side of a node by rounding,
     air.species[0].numberDensity.back() = std::exp(-14.7); // as would the number of cells that divide 15 scale heights
     const Moments earth = solved(air, settings, 3);
     for (const double factor : {400 / 6.371e6, 1e-3, 1e3 / 1024, 11.}) {
@@ -125,7 +125,8 @@ TEST_CASE("after sunset, twice as many samples along a ray change little, and tw
         parts.singleNodes = nodes;
         std::vector<double> result(optics.wavelengths);
         const double muSun = std::cos(zenith);
-        evaluator.radiance(tracer, nullptr, 0, mu, muSun, mu * muSun + std::sqrt((1 - mu * mu) * (1 - muSun * muSun)), parts, result.data());
+        evaluator.radiance(tracer, nullptr, 0, mu, muSun, mu * muSun + std::sqrt((1 - mu * mu) * (1 - muSun * muSun)), parts,
+                           result.data());
         return result[1];
     };
     double coarse = 0, fine = 0;

@@ -65,9 +65,8 @@ fs::path findCalcmysky()
             return candidate;
         rest = colon == std::string::npos ? "" : rest.substr(colon + 1);
     }
-    throw sky::FileError(
-        "A description is computed by the program `calcmysky`, but there is none beside `showmysky` and "
-        "none in PATH. Install it, or open a model directory.");
+    throw sky::FileError("A description is computed by the program `calcmysky`, but there is none beside `showmysky` and "
+                         "none in PATH. Install it, or open a model directory.");
 }
 
 Computation::Computation(const fs::path& calcmysky, const fs::path& description, const fs::path& modelDirectory)
@@ -77,13 +76,8 @@ Computation::Computation(const fs::path& calcmysky, const fs::path& description,
         throw sky::FileError("Cannot talk to `" + calcmysky.string() + "`: " + sky::systemReason(errno) + ".");
     pipe_ = ends[0];
     fcntl(pipe_, F_SETFL, O_NONBLOCK);
-    std::array<std::string, 7> words{calcmysky.string(),
-                                     description.string(),
-                                     "--only",
-                                     "moments",
-                                     "--progress",
-                                     "json",
-                                     "--out-dir=" + modelDirectory.string()};
+    std::array<std::string, 7> words{
+        calcmysky.string(), description.string(), "--only", "moments", "--progress", "json", "--out-dir=" + modelDirectory.string()};
     std::array<char*, words.size() + 1> arguments{};
     for (std::size_t i = 0; i < words.size(); ++i)
         arguments[i] = words[i].data();

@@ -13,10 +13,7 @@ constexpr auto lookInterval = std::chrono::milliseconds(150); // two looks see a
 
 } // namespace
 
-bool Exhibit::isDescription() const
-{
-    return path_.extension() == ".atmo";
-}
+bool Exhibit::isDescription() const { return path_.extension() == ".atmo"; }
 
 void Exhibit::open(const fs::path& path)
 {
@@ -90,9 +87,6 @@ std::string Exhibit::activity() const
     return next_ ? progress_.activity : std::string();
 }
 
-double Exhibit::fraction() const
-{
-    return computation_ ? computation_->fraction() : next_ ? progress_.fraction : 1;
-}
+double Exhibit::fraction() const { return computation_ ? computation_->fraction() : next_ ? progress_.fraction : 1; }
 
 } // namespace showmysky::app::preview

@@ -1,7 +1,7 @@
 #include "input.hpp"
 
-#include "view_direction.hpp"
 #include "base/angles.hpp"
+#include "view_direction.hpp"
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -29,10 +29,7 @@ double wrapped(double azimuth)
 }
 
 /// Azimuths crowd together near the zenith: there the same angle on the sky is a larger step of azimuth.
-double azimuthStep(double angle, double elevation)
-{
-    return angle / std::max(0.1, std::cos(elevation * degree));
-}
+double azimuthStep(double angle, double elevation) { return angle / std::max(0.1, std::cos(elevation * degree)); }
 
 /// A direction in the sky, degrees.
 struct Place {
@@ -42,16 +39,13 @@ struct Place {
 /// Under a point of the window; nothing outside of the projection.
 std::optional<Place> placeUnder(const SceneOptions& scene, const Canvas& canvas, const Point& point)
 {
-    const Vector direction =
-        builtInDirection(scene.camera(), canvas.width, canvas.height, point.x, canvas.height - point.y);
+    const Vector direction = builtInDirection(scene.camera(), canvas.width, canvas.height, point.x, canvas.height - point.y);
     if (direction == Vector{})
         return std::nullopt;
-    return Place{std::atan2(-direction[1], direction[0]) / degree,
-                 std::acos(std::clamp(direction[2], -1., 1.)) / degree};
+    return Place{std::atan2(-direction[1], direction[0]) / degree, std::acos(std::clamp(direction[2], -1., 1.)) / degree};
 }
 
-void moveOnSky(double& azimuth, double& zenith, const SceneOptions& scene, const Canvas& canvas, const Point& from,
-               const Point& to)
+void moveOnSky(double& azimuth, double& zenith, const SceneOptions& scene, const Canvas& canvas, const Point& from, const Point& to)
 {
     const auto before = placeUnder(scene, canvas, from), now = placeUnder(scene, canvas, to);
     if (!before || !now)
@@ -97,10 +91,7 @@ void putMoonOnSun(SceneOptions& scene)
     scene.moonAzimuth = scene.sunAzimuth;
 }
 
-void addCity(SceneOptions& scene)
-{
-    scene.cities.push_back({30e3, scene.yaw, 8e3, 1, {}});
-}
+void addCity(SceneOptions& scene) { scene.cities.push_back({30e3, scene.yaw, 8e3, 1, {}}); }
 
 void Pointer::press(const ButtonPressed& event)
 {

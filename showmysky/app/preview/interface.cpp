@@ -48,14 +48,8 @@ void Interface::end()
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 
-bool Interface::wantsPointer() const
-{
-    return ImGui::GetIO().WantCaptureMouse;
-}
+bool Interface::wantsPointer() const { return ImGui::GetIO().WantCaptureMouse; }
 
-bool Interface::wantsKeys() const
-{
-    return ImGui::GetIO().WantTextInput;
-}
+bool Interface::wantsKeys() const { return ImGui::GetIO().WantTextInput; }
 
 } // namespace showmysky::app::preview

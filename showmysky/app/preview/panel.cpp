@@ -202,10 +202,8 @@ void drawStatusLine(const PanelFacts& facts)
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({panelWidth, screen.y}, ImGuiCond_Always, {0, 1});
     ImGui::SetNextWindowSize({std::max(1.f, screen.x - panelWidth), 0});
-    ImGui::Begin("##status", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoFocusOnAppearing);
-    ImGui::Text("frame %.1f ms (sky %.1f, screen %.1f)", 1e3 * facts.frameSeconds, 1e3 * facts.skySeconds,
-                1e3 * facts.screenSeconds);
+    ImGui::Begin("##status", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoFocusOnAppearing);
+    ImGui::Text("frame %.1f ms (sky %.1f, screen %.1f)", 1e3 * facts.frameSeconds, 1e3 * facts.skySeconds, 1e3 * facts.screenSeconds);
     if (!facts.activity.empty()) {
         ImGui::SameLine();
         ImGui::ProgressBar(static_cast<float>(facts.fraction), {80, 0});

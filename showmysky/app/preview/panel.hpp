@@ -9,16 +9,16 @@ namespace showmysky::app::preview {
 
 /// What the panel shows beside the state.
 struct PanelFacts {
-    std::string model;                   ///< its path
-    std::vector<std::string> scatterers; ///< of the model; empty while there is none
-    double topOfAtmosphere = 100e3;      ///< m
-    double exposure = 0;                 ///< that the picture has, log10
-    std::string refusal;                 ///< why the scene can't be drawn
+    std::string model;                                                              ///< its path
+    std::vector<std::string> scatterers;                                            ///< of the model; empty while there is none
+    double topOfAtmosphere = 100e3;                                                 ///< m
+    double exposure = 0;                                                            ///< that the picture has, log10
+    std::string refusal;                                                            ///< why the scene can't be drawn
     std::string eclipseRefusal, pollutionRefusal, texturesRefusal, onTheFlyRefusal; ///< why a switch can't be on
     std::string eclipseTableNote; ///< why higher orders are followed on the fly though the table is asked for
-    std::string obscuration; ///< of the Sun by the Moon, in words
-    std::string activity;    ///< what is waited for
-    double fraction = 1;     ///< of it
+    std::string obscuration;      ///< of the Sun by the Moon, in words
+    std::string activity;         ///< what is waited for
+    double fraction = 1;          ///< of it
     double frameSeconds = 0, skySeconds = 0, screenSeconds = 0;
     std::string problem; ///< that the whole window has
     std::string note;    ///< of the last save or load

@@ -1,7 +1,6 @@
 #include "screen.hpp"
 #include "base/stopwatch.hpp"
 
-
 namespace showmysky::app::preview {
 
 namespace gl = sky::gl;
@@ -29,8 +28,7 @@ void Screen::show(Developer& developer, unsigned luminance, const Development& d
     }
     api_->BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.name());
     api_->BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-    api_->BlitFramebuffer(0, 0, canvas.width, canvas.height, 0, 0, canvas.width, canvas.height, GL_COLOR_BUFFER_BIT,
-                          GL_NEAREST);
+    api_->BlitFramebuffer(0, 0, canvas.width, canvas.height, 0, 0, canvas.width, canvas.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
     api_->BindFramebuffer(GL_FRAMEBUFFER, 0);
     gl::checkErrors(api_, "showing a picture");
 }

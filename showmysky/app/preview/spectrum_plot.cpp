@@ -47,8 +47,8 @@ struct Axes {
 double interpolated(const Reading& reading, double nm)
 {
     const auto& x = reading.wavelengths;
-    const auto above = std::clamp<std::ptrdiff_t>(std::upper_bound(x.begin(), x.end(), nm) - x.begin(), 1,
-                                                  static_cast<std::ptrdiff_t>(x.size()) - 1);
+    const auto above =
+        std::clamp<std::ptrdiff_t>(std::upper_bound(x.begin(), x.end(), nm) - x.begin(), 1, static_cast<std::ptrdiff_t>(x.size()) - 1);
     const auto i = static_cast<std::size_t>(above);
     const double t = (nm - x[i - 1]) / (x[i] - x[i - 1]);
     return reading.radiance[i - 1] + t * (reading.radiance[i] - reading.radiance[i - 1]);
@@ -100,8 +100,7 @@ void drawSpectrum(const Reading& reading)
     drawAxes(list, axes);
     const ImVec2 pointer = ImGui::GetIO().MousePos;
     if (ImGui::IsItemHovered() && pointer.x >= axes.corner.x && pointer.x <= axes.corner.x + plotWidth) {
-        const double nm =
-            axes.firstNm + static_cast<double>((pointer.x - axes.corner.x) / plotWidth) * (axes.lastNm - axes.firstNm);
+        const double nm = axes.firstNm + static_cast<double>((pointer.x - axes.corner.x) / plotWidth) * (axes.lastNm - axes.firstNm);
         ImGui::SetTooltip("%.1f nm: %.4g", nm, interpolated(reading, nm));
     }
     ImGui::TextUnformatted("W m^-2 sr^-1 nm^-1");

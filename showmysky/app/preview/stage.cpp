@@ -30,10 +30,9 @@ SceneSettings settingsFor(const Sky& sky, const SceneOptions& scene)
     SceneSettings settings = scene.settings(sky);
     const auto names = sky.scatterers();
     auto& hidden = settings.layers.hiddenScatterers;
-    hidden.erase(
-        std::remove_if(hidden.begin(), hidden.end(),
-                       [&](const auto& name) { return std::find(names.begin(), names.end(), name) == names.end(); }),
-        hidden.end());
+    hidden.erase(std::remove_if(hidden.begin(), hidden.end(),
+                                [&](const auto& name) { return std::find(names.begin(), names.end(), name) == names.end(); }),
+                 hidden.end());
     return settings;
 }
 
@@ -55,8 +54,7 @@ void Stage::ask(Sky& sky, const SceneOptions& scene)
     }
 }
 
-Stage::Result Stage::advance(Sky& sky, const SceneOptions& scene, const Canvas& canvas, bool moving,
-                             const std::function<void()>& finish)
+Stage::Result Stage::advance(Sky& sky, const SceneOptions& scene, const Canvas& canvas, bool moving, const std::function<void()>& finish)
 {
     // What was begun is finished first: otherwise a Sun that is dragged would never arrive.
     if (!preparing_)

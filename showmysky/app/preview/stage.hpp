@@ -14,15 +14,13 @@ class Stage
 public:
     /// What a call of advance did.
     struct Result {
-        bool drawn = false; ///< there is a new picture
-        bool atRest =
-            false; ///< the picture shows the wanted scene at full resolution (or the last one that was possible)
+        bool drawn = false;  ///< there is a new picture
+        bool atRest = false; ///< the picture shows the wanted scene at full resolution (or the last one that was possible)
     };
 
     /// Does some tens of milliseconds of work for the scene.
     ///   finish  waits until what was drawn is there, to know how long it takes
-    Result advance(Sky& sky, const SceneOptions& scene, const Canvas& canvas, bool moving,
-                   const std::function<void()>& finish);
+    Result advance(Sky& sky, const SceneOptions& scene, const Canvas& canvas, bool moving, const std::function<void()>& finish);
     /// Another model: nothing is known of it.
     void forget() { *this = Stage(); }
 

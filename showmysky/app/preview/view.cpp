@@ -54,9 +54,6 @@ private:
 
 } // namespace
 
-std::unique_ptr<Subcommand> makeView()
-{
-    return std::make_unique<View>();
-}
+std::unique_ptr<Subcommand> makeView() { return std::make_unique<View>(); }
 
 } // namespace showmysky::app

@@ -24,8 +24,8 @@ std::string inWords(const EclipseState& state)
                         : state.phase == Phase::partial ? "partial eclipse"
                                                         : "no eclipse";
     char text[160];
-    std::snprintf(text, sizeof text, "%s: %.2f %% of the Sun is hidden, magnitude %.4f, centres %.4f degrees apart",
-                  phase, 100 * state.obscuration, state.magnitude, state.separation / degree);
+    std::snprintf(text, sizeof text, "%s: %.2f %% of the Sun is hidden, magnitude %.4f, centres %.4f degrees apart", phase,
+                  100 * state.obscuration, state.magnitude, state.separation / degree);
     return text;
 }
 
@@ -176,8 +176,8 @@ void Viewer::updateSky()
         atRest_ = false;
     if (atRest_)
         return;
-    const auto result = stage_.advance(*sky, state_.scene, window_.framebuffer(), changed || pointer_.dragging(),
-                                       [this] { context_.api()->Finish(); });
+    const auto result =
+        stage_.advance(*sky, state_.scene, window_.framebuffer(), changed || pointer_.dragging(), [this] { context_.api()->Finish(); });
     const bool nowAtRest = result.atRest && !pointer_.dragging();
     if (result.drawn) {
         screen_.lightChanged();

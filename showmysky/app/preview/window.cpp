@@ -18,39 +18,27 @@ std::string glfwReason()
 
 [[noreturn]] void refuse(const std::string& what)
 {
-    throw sky::GlError(what + glfwReason() +
-                       ". Without a window, `showmysky render MODEL -o sky.png` draws the same picture.");
+    throw sky::GlError(what + glfwReason() + ". Without a window, `showmysky render MODEL -o sky.png` draws the same picture.");
 }
 
 Key keyOf(int key)
 {
     switch (key) {
-    case GLFW_KEY_ESCAPE:
-        return Key::escape;
-    case GLFW_KEY_TAB:
-        return Key::tab;
-    case GLFW_KEY_Q:
-        return Key::q;
-    case GLFW_KEY_R:
-        return Key::r;
-    case GLFW_KEY_S:
-        return Key::s;
-    default:
-        return Key::other;
+    case GLFW_KEY_ESCAPE: return Key::escape;
+    case GLFW_KEY_TAB: return Key::tab;
+    case GLFW_KEY_Q: return Key::q;
+    case GLFW_KEY_R: return Key::r;
+    case GLFW_KEY_S: return Key::s;
+    default: return Key::other;
     }
 }
 
 Button buttonOf(int button)
 {
-    return button == GLFW_MOUSE_BUTTON_RIGHT    ? Button::right
-           : button == GLFW_MOUSE_BUTTON_MIDDLE ? Button::middle
-                                                : Button::left;
+    return button == GLFW_MOUSE_BUTTON_RIGHT ? Button::right : button == GLFW_MOUSE_BUTTON_MIDDLE ? Button::middle : Button::left;
 }
 
-Modifiers modifiersOf(int bits)
-{
-    return {(bits & GLFW_MOD_SHIFT) != 0, (bits & GLFW_MOD_CONTROL) != 0};
-}
+Modifiers modifiersOf(int bits) { return {(bits & GLFW_MOD_SHIFT) != 0, (bits & GLFW_MOD_CONTROL) != 0}; }
 
 } // namespace
 
@@ -81,15 +69,9 @@ Window::Window(int width, int height, const std::string& title) : library_(std::
     listen();
 }
 
-Window::~Window()
-{
-    glfwDestroyWindow(window_);
-}
+Window::~Window() { glfwDestroyWindow(window_); }
 
-Window::Heard& Window::heardBy(GLFWwindow* window)
-{
-    return *static_cast<Heard*>(glfwGetWindowUserPointer(window));
-}
+Window::Heard& Window::heardBy(GLFWwindow* window) { return *static_cast<Heard*>(glfwGetWindowUserPointer(window)); }
 
 void Window::listen()
 {
@@ -106,17 +88,13 @@ void Window::listen()
         else
             heard.events.push_back(ButtonReleased{buttonOf(button), heard.pointer});
     });
-    glfwSetScrollCallback(window_, [](GLFWwindow* window, double, double steps) {
-        heardBy(window).events.push_back(WheelTurned{steps});
-    });
+    glfwSetScrollCallback(window_, [](GLFWwindow* window, double, double steps) { heardBy(window).events.push_back(WheelTurned{steps}); });
     glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int modifiers) {
         if (action != GLFW_RELEASE)
-            heardBy(window).events.push_back(
-                KeyPressed{action == GLFW_PRESS ? keyOf(key) : Key::other, modifiersOf(modifiers)});
+            heardBy(window).events.push_back(KeyPressed{action == GLFW_PRESS ? keyOf(key) : Key::other, modifiersOf(modifiers)});
     });
     glfwSetWindowRefreshCallback(window_, [](GLFWwindow* window) { heardBy(window).events.push_back(Exposed{}); });
-    glfwSetFramebufferSizeCallback(window_,
-                                   [](GLFWwindow* window, int, int) { heardBy(window).events.push_back(Exposed{}); });
+    glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* window, int, int) { heardBy(window).events.push_back(Exposed{}); });
     glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
         heardBy(window).events.push_back(Dropped{{paths, paths + count}});
     });
@@ -127,15 +105,9 @@ GlLoader Window::loader() const
     return [](const char* name) { return reinterpret_cast<void*>(glfwGetProcAddress(name)); };
 }
 
-bool Window::closing() const
-{
-    return glfwWindowShouldClose(window_) != 0;
-}
+bool Window::closing() const { return glfwWindowShouldClose(window_) != 0; }
 
-void Window::setTitle(const std::string& title)
-{
-    glfwSetWindowTitle(window_, title.c_str());
-}
+void Window::setTitle(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
 
 std::vector<Event> Window::events(double atMostSeconds)
 {
@@ -146,10 +118,7 @@ std::vector<Event> Window::events(double atMostSeconds)
     return std::exchange(heard_.events, {});
 }
 
-void Window::show()
-{
-    glfwSwapBuffers(window_);
-}
+void Window::show() { glfwSwapBuffers(window_); }
 
 Canvas Window::size() const
 {

@@ -27,9 +27,6 @@ public:
 
 } // namespace
 
-std::unique_ptr<Subcommand> makeView()
-{
-    return std::make_unique<View>();
-}
+std::unique_ptr<Subcommand> makeView() { return std::make_unique<View>(); }
 
 } // namespace showmysky::app

@@ -25,10 +25,10 @@ enum showmysky_photometry_status {
 };
 
 enum showmysky_photometry_layer {
-    SHOWMYSKY_ZERO_ORDER = 1,          /* the ground in direct view; the Sun's disc is in no layer */
+    SHOWMYSKY_ZERO_ORDER = 1, /* the ground in direct view; the Sun's disc is in no layer */
     SHOWMYSKY_SINGLE_SCATTERING = 2,
     SHOWMYSKY_MULTIPLE_SCATTERING = 4,
-    SHOWMYSKY_LIGHT_POLLUTION = 8,     /* of a ground that glows evenly with 1 cd/m^2 */
+    SHOWMYSKY_LIGHT_POLLUTION = 8, /* of a ground that glows evenly with 1 cd/m^2 */
     SHOWMYSKY_WHOLE_SKY = 7
 };
 
@@ -77,11 +77,11 @@ SHOWMYSKY_API int showmysky_photometer_luminance(const showmysky_photometer* pho
 /* X, Y, Z, scotopic of one spectrum. */
 SHOWMYSKY_API int showmysky_photometer_colour(const showmysky_photometer* photometer, const double* spectrum, double* xyz_scotopic);
 /* 0..1, to space; zero where the ground is in the way. */
-SHOWMYSKY_API int showmysky_photometer_transmittance(const showmysky_photometer* photometer, double altitude,
-                                                     double view_zenith_angle, double* spectrum);
+SHOWMYSKY_API int showmysky_photometer_transmittance(const showmysky_photometer* photometer, double altitude, double view_zenith_angle,
+                                                     double* spectrum);
 /* Of a plane that faces the Sun, W m^-2 nm^-1. */
-SHOWMYSKY_API int showmysky_photometer_sun_irradiance(const showmysky_photometer* photometer, double altitude,
-                                                      double sun_zenith_angle, double* spectrum);
+SHOWMYSKY_API int showmysky_photometer_sun_irradiance(const showmysky_photometer* photometer, double altitude, double sun_zenith_angle,
+                                                      double* spectrum);
 /* Of a horizontal surface, W m^-2 nm^-1, by the Sun and by the sky; either may be null. */
 SHOWMYSKY_API int showmysky_photometer_horizontal_irradiance(const showmysky_photometer* photometer, double altitude,
                                                              double sun_zenith_angle, double* direct, double* diffuse);

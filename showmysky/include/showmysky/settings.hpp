@@ -67,8 +67,8 @@ struct SceneSettings {
     /// Of the textures source: where Sun and Moon stand as in the model's eclipse table, light of higher orders is looked up there; else,
     /// or where this is false, it is followed on the fly.
     bool precomputedEclipse = false;
-    bool eclipseFine = false;               ///< tables of an eclipse four times as fine both ways: for stills
-    bool limbDarkening = false;             ///< in an eclipse the Sun is darker towards its limb
+    bool eclipseFine = false;              ///< tables of an eclipse four times as fine both ways: for stills
+    bool limbDarkening = false;            ///< in an eclipse the Sun is darker towards its limb
     bool onTheFlySingleScattering = false; ///< of the textures source: single scattering gathered, not looked up
     double lightPollutionLuminance = 0;    ///< of the ground, cd m^-2
     std::vector<City> cities{};            ///< any number; part of the layer lightPollution

@@ -32,15 +32,15 @@ typedef struct showmysky_scene {
     double sun_angular_radius; /* 0: as the model says */
     double moon_azimuth, moon_zenith_angle, moon_distance;
     int zero_order, solar_disc, single_scattering, multiple_scattering, light_pollution; /* layers: 0 or 1 */
-    const char* const* hidden_scatterers; /* null, or names ended by a null */
+    const char* const* hidden_scatterers;                                                /* null, or names ended by a null */
     double light_pollution_luminance;
     int source;
     int eclipse, on_the_fly_single_scattering, pseudo_mirror, texture_filtering; /* 0 or 1 */
     const double* solar_spectrum_factors;                                        /* null, or one per wavelength */
     size_t solar_spectrum_factor_count;
-    int eclipse_orders;                /* scatterings followed through the shadow; 0: as many as the model has */
-    int eclipse_fine, limb_darkening;  /* 0 or 1 */
-    const showmysky_city* cities;      /* part of the layer light_pollution; null where there are none */
+    int eclipse_orders;               /* scatterings followed through the shadow; 0: as many as the model has */
+    int eclipse_fine, limb_darkening; /* 0 or 1 */
+    const showmysky_city* cities;     /* part of the layer light_pollution; null where there are none */
     size_t city_count;
     int precomputed_eclipse; /* 0 or 1 */
 } showmysky_scene;
@@ -81,11 +81,9 @@ typedef struct showmysky_eclipse {
 SHOWMYSKY_API int showmysky_eclipse_state(const showmysky_sky* sky, const showmysky_scene* scene, showmysky_eclipse* result);
 /* 1 if the scene is drawn from the model's eclipse table, 0 if not or where that can't be told. */
 SHOWMYSKY_API int showmysky_uses_eclipse_table(const showmysky_sky* sky, const showmysky_scene* scene);
-SHOWMYSKY_API int showmysky_draw(showmysky_sky* sky, const showmysky_camera* camera, int width, int height,
-                                 int reduction);
+SHOWMYSKY_API int showmysky_draw(showmysky_sky* sky, const showmysky_camera* camera, int width, int height, int reduction);
 /* The last scene that was prepared to the end, without waiting, while the next is prepared; nothing before the first. */
-SHOWMYSKY_API int showmysky_draw_prepared(showmysky_sky* sky, const showmysky_camera* camera, int width, int height,
-                                          int reduction);
+SHOWMYSKY_API int showmysky_draw_prepared(showmysky_sky* sky, const showmysky_camera* camera, int width, int height, int reduction);
 SHOWMYSKY_API unsigned showmysky_luminance_texture(const showmysky_sky* sky);
 SHOWMYSKY_API unsigned showmysky_program(const showmysky_sky* sky);
 

@@ -55,8 +55,8 @@ Development plain()
 /// Grey of D65 white.
 Luminance grey(double luminance)
 {
-    return {static_cast<float>(0.9504559 * luminance), static_cast<float>(luminance),
-            static_cast<float>(1.0890578 * luminance), static_cast<float>(2 * luminance)};
+    return {static_cast<float>(0.9504559 * luminance), static_cast<float>(luminance), static_cast<float>(1.0890578 * luminance),
+            static_cast<float>(2 * luminance)};
 }
 
 double mean(const Levels& levels)
@@ -64,10 +64,7 @@ double mean(const Levels& levels)
     return std::accumulate(levels.rgb.begin(), levels.rgb.end(), 0.) / static_cast<double>(levels.rgb.size());
 }
 
-std::array<int, 3> firstPixel(const Levels& levels)
-{
-    return {levels.rgb.at(0), levels.rgb.at(1), levels.rgb.at(2)};
-}
+std::array<int, 3> firstPixel(const Levels& levels) { return {levels.rgb.at(0), levels.rgb.at(1), levels.rgb.at(2)}; }
 
 } // namespace
 
@@ -77,10 +74,8 @@ TEST_CASE("development: sRGB agrees with the CPU's formulas", "[gl]")
     if (!gpu)
         return;
     Darkroom room(gpu->api());
-    for (const auto& xyz :
-         {sky::physics::XYZ{0.2, 0.25, 0.3}, {0.5, 0.4, 0.2}, {0.001, 0.0011, 0.002}, {0.9, 0.95, 1.}}) {
-        const auto levels = room.patch(
-            {static_cast<float>(xyz[0]), static_cast<float>(xyz[1]), static_cast<float>(xyz[2]), 0}, plain(), 1);
+    for (const auto& xyz : {sky::physics::XYZ{0.2, 0.25, 0.3}, {0.5, 0.4, 0.2}, {0.001, 0.0011, 0.002}, {0.9, 0.95, 1.}}) {
+        const auto levels = room.patch({static_cast<float>(xyz[0]), static_cast<float>(xyz[1]), static_cast<float>(xyz[2]), 0}, plain(), 1);
         const auto rgb = sky::physics::linearSrgb(xyz);
         for (std::size_t c = 0; c < 3; ++c)
             CHECK(levels.rgb[c] == Approx(255 * sky::physics::encodeSrgb(rgb[c])).margin(0.51)); // rounding
@@ -147,9 +142,7 @@ TEST_CASE("development: colour modes show what they say", "[gl]")
         development.gradualClipping = gradual;
         return firstPixel(room.patch(light, development, 1));
     };
-    const auto level = [](double linear) {
-        return static_cast<int>(std::lround(255 * sky::physics::encodeSrgb(linear)));
-    };
+    const auto level = [](double linear) { return static_cast<int>(std::lround(255 * sky::physics::encodeSrgb(linear))); };
     const Luminance light{0.2f, 0.25f, 0.3f, 0.6f};
     const auto rgb = sky::physics::linearSrgb({0.2, 0.25, 0.3});
     CHECK(shown(light, ColourMode::photopic) == std::array{level(0.25), level(0.25), level(0.25)});
@@ -159,8 +152,7 @@ TEST_CASE("development: colour modes show what they say", "[gl]")
     CHECK(shown(light, ColourMode::red)[1] == level(rgb[0]));
     CHECK(shown(light, ColourMode::green)[1] == level(rgb[1]));
     CHECK(shown(light, ColourMode::blue)[1] == level(rgb[2]));
-    CHECK(shown(light, ColourMode::xyzChromaticitySmooth) ==
-          std::array{level(0.2 / 0.75), level(0.25 / 0.75), level(0.3 / 0.75)});
+    CHECK(shown(light, ColourMode::xyzChromaticitySmooth) == std::array{level(0.2 / 0.75), level(0.25 / 0.75), level(0.3 / 0.75)});
     CHECK(shown(light, ColourMode::xyzChromaticityBright) == std::array{level(0.2 / 0.3), level(0.25 / 0.3), 255});
     const double sum = rgb[0] + rgb[1] + rgb[2], most = std::max({rgb[0], rgb[1], rgb[2]});
     CHECK(shown(light, ColourMode::srgbChromaticitySmooth)[0] == level(rgb[0] / sum));
@@ -190,9 +182,7 @@ TEST_CASE("development: glare scatters light and keeps its sum", "[gl]")
     Development development = plain();
     std::vector<Luminance> pixels(128 * 128);
     pixels[64 * 128 + 64] = grey(1e3);
-    const auto at = [](const Levels& levels, int x, int y) {
-        return int(levels.rgb[3 * static_cast<std::size_t>(y * 128 + x)]);
-    };
+    const auto at = [](const Levels& levels, int x, int y) { return int(levels.rgb[3 * static_cast<std::size_t>(y * 128 + x)]); };
     CHECK(at(room.develop(pixels, 128, development), 70, 64) == 0);
     development.glare = 1;
     const auto glaring = room.develop(pixels, 128, development);

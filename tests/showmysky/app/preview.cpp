@@ -39,8 +39,7 @@ private:
 
 /// A directory that is gone in the end.
 struct Scratch {
-    fs::path path =
-        fs::temp_directory_path() / ("showmysky-test-" + std::to_string(std::rand()) + std::to_string(getpid()));
+    fs::path path = fs::temp_directory_path() / ("showmysky-test-" + std::to_string(std::rand()) + std::to_string(getpid()));
     Scratch() { fs::create_directories(path); }
     ~Scratch() { fs::remove_all(path); }
 };
@@ -91,8 +90,7 @@ TEST_CASE("preferences: the state survives a restart")
     CHECK(back.sceneFile == "a dusk.scene");
 
     write(configDirectory() / "preview.conf", "altitude: 3\nwindow-width: 3");
-    CHECK_THROWS_WITH(loadPreferences(back),
-                      Catch::Contains("preview.conf:2:15: `window-width`: `3` is not a number of pixels"));
+    CHECK_THROWS_WITH(loadPreferences(back), Catch::Contains("preview.conf:2:15: `window-width`: `3` is not a number of pixels"));
     CHECK(back.scene == state.scene);
 }
 
@@ -185,8 +183,7 @@ TEST_CASE("computation: progress, the child's own words, and a child without wor
     CHECK(stage == "moments");
     CHECK(fraction == 0.5);
     CHECK(problemOf(R"(echo '{"event":"error","message":"a.atmo:3:1: no."}' >&2; exit 2)") == "a.atmo:3:1: no.");
-    CHECK(problemOf("echo '{ broken' >&2; echo 'a library is missing' >&2; exit 127") ==
-          "{ broken\na library is missing\n");
+    CHECK(problemOf("echo '{ broken' >&2; echo 'a library is missing' >&2; exit 127") == "{ broken\na library is missing\n");
     CHECK(problemOf("kill -9 $$") == "calcmysky ended without a word.");
     CHECK_THROWS_AS(Computation("/no/such/program", "a.atmo", "/tmp/model"), sky::FileError);
 }

@@ -46,9 +46,9 @@ TEST_CASE("scene file: every setting comes back as it was written")
     scene.source = Source::textures;
     scene.projection = Projection::fisheye;
     scene.eclipseOrders = 3;
-    scene.eclipse = scene.precomputedEclipse = scene.eclipseFine = scene.limbDarkening = scene.onTheFly = scene.mirror = scene.unfiltered = true;
-    scene.development = {ToneCurve::linear,    false,         -3.25, ColourMode::hue, false, 0.5,
-                         Dithering::blueNoise, Depth::bits565};
+    scene.eclipse = scene.precomputedEclipse = scene.eclipseFine = scene.limbDarkening = scene.onTheFly = scene.mirror = scene.unfiltered =
+        true;
+    scene.development = {ToneCurve::linear, false, -3.25, ColourMode::hue, false, 0.5, Dithering::blueNoise, Depth::bits565};
     SceneOptions back;
     readScene(back, writeScene(scene), "test");
     CHECK(back == scene);
@@ -69,13 +69,11 @@ TEST_CASE("scene file: an empty list, comments, blanks and other line ends")
 
 TEST_CASE("scene file: mistakes are named by file, line and column")
 {
-    CHECK(complaint("altitude: 1\nsun-zenit: 3") ==
-          "a.scene:2:1: there is no setting `sun-zenit`. Did you mean `sun-zenith`?");
+    CHECK(complaint("altitude: 1\nsun-zenit: 3") == "a.scene:2:1: there is no setting `sun-zenit`. Did you mean `sun-zenith`?");
     CHECK(complaint("altitude:  up") == "a.scene:1:12: `altitude`: `up` is not a number.");
     CHECK(complaint("# \xc3\xa4\n altitude 3") == "a.scene:2:2: expected `NAME: VALUE`, for instance `altitude: 100`.");
     CHECK(complaint("yaw: 1\nyaw: 2") == "a.scene:2:1: `yaw` is given twice.");
-    CHECK(complaint("projection: fisheey").find("a.scene:1:13: `projection`: `fisheey` is not understood; expected") ==
-          0);
+    CHECK(complaint("projection: fisheey").find("a.scene:1:13: `projection`: `fisheey` is not understood; expected") == 0);
     CHECK(complaint("altitude: nan") == "a.scene:1:11: `altitude`: `nan` is not a number.");
     CHECK(complaint("layers: zero, mirth").find("`mirth` is not understood") != std::string::npos);
     CHECK(complaint("eclipse: maybe").find("`maybe` is not understood") != std::string::npos);

@@ -55,8 +55,7 @@ double total(const std::vector<double>& spectrum)
 TEST_CASE("solar spectrum: a black body has its own colour temperature")
 {
     for (const double temperature : {2000., 3500., 5772., 12000.}) {
-        const auto found =
-            sky::physics::correlatedColourTemperature(colour(sun({SolarSpectrum::Kind::blackBody, temperature, {}})));
+        const auto found = sky::physics::correlatedColourTemperature(colour(sun({SolarSpectrum::Kind::blackBody, temperature, {}})));
         REQUIRE(found);
         CHECK(*found == Approx(temperature).epsilon(0.003)); // the 5 nm steps
     }
