@@ -1,4 +1,5 @@
 #include "reference_table.hpp"
+#include "base/angles.hpp"
 #include "base/error.hpp"
 #include <cmath>
 #include <fstream>
@@ -7,7 +8,8 @@
 namespace sky::bench {
 
 namespace {
-constexpr double pi = 3.14159265358979323846, degree = pi / 180;
+using sky::base::degree;
+using sky::base::pi;
 constexpr double usableNoise = 0.05;
 } // namespace
 

@@ -1,4 +1,5 @@
 #include "eclipse/field.hpp"
+#include "base/angles.hpp"
 #include "base/parallel.hpp"
 #include "eclipse/state.hpp"
 #include <algorithm>
@@ -9,7 +10,7 @@ namespace sky::eclipse {
 
 namespace {
 
-constexpr float pi = 3.14159265f;
+constexpr float pi = static_cast<float>(base::pi);
 constexpr int mostEvents = 60;
 /// Light below this share of full sunlight is darkness: single precision loses it on the way.
 constexpr double darkness = 1e-30;

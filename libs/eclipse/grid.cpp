@@ -1,4 +1,5 @@
 #include "eclipse/grid.hpp"
+#include "base/angles.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -6,7 +7,7 @@ namespace sky::eclipse {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using base::pi;
 
 /// How far from the observer the shadow still draws points to itself, m: farther away it is out of the field's sight.
 constexpr double sight = 2000e3;

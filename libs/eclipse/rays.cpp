@@ -1,4 +1,5 @@
 #include "eclipse/rays.hpp"
+#include "base/angles.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "eclipse/frame.hpp"
@@ -13,7 +14,7 @@ namespace sky::eclipse {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using base::pi;
 
 /// Share of the column of scatterers above which air sends on too little light to know more of than that of the highest level.
 constexpr double negligibleColumn = 3e-4;

@@ -1,4 +1,5 @@
 #include "model/scattering_table.hpp"
+#include "base/angles.hpp"
 #include "base/error.hpp"
 #include "physics/geometry.hpp"
 #include "physics/stencil.hpp"
@@ -10,7 +11,7 @@ namespace sky::model {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using base::pi;
 /// Layers kept in memory: an observer needs four, one who moves a few more.
 constexpr std::size_t layersKept = 8;
 

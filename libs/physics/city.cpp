@@ -1,4 +1,5 @@
 #include "physics/city.hpp"
+#include "base/angles.hpp"
 #include "base/lanes.hpp"
 #include "physics/harmonics.hpp"
 #include "physics/quadrature.hpp"
@@ -11,7 +12,7 @@ namespace sky::physics {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using base::pi;
 constexpr int degreeOfCities = 4;  // of the harmonics of what is scattered more than once
 constexpr int linkElevations = 48; // sine of the elevation at the ground: sinh(4 t) / sinh 4
 constexpr double linkScale = 4;

@@ -1,3 +1,4 @@
+#include "base/angles.hpp"
 #include "base/lanes.hpp"
 #include "base/parallel.hpp"
 #include "physics/city.hpp"
@@ -12,7 +13,7 @@ namespace sky::physics {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using base::pi;
 
 /// Nodes of a ray: about the place nearest to the city, and where the light that is seen comes from.
 constexpr int viewNearNodes = 18, fieldNearNodes = 10, fieldFarNodes = 8;

@@ -1,4 +1,5 @@
 #include "physics/glow_light.hpp"
+#include "base/angles.hpp"
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -7,7 +8,7 @@ namespace sky::physics {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using base::pi;
 constexpr int lanes = GlowLight::lanes;
 using Lane = GlowLight::Lane;
 using Lanes = base::VectorsOf<Lane>;

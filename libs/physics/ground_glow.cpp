@@ -1,4 +1,5 @@
 #include "physics/ground_glow.hpp"
+#include "base/angles.hpp"
 #include "base/parallel.hpp"
 #include "physics/directions.hpp"
 #include "physics/glow_light.hpp"
@@ -11,7 +12,7 @@ namespace sky::physics {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using base::pi;
 
 /// Zenith-angle factors of Y_l0.
 void zonalFactors(int degree, double mu, double* factors)

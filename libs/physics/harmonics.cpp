@@ -1,10 +1,11 @@
 #include "physics/harmonics.hpp"
+#include "base/angles.hpp"
 #include <algorithm>
 #include <cmath>
 
 namespace sky::physics {
 
-constexpr double pi = 3.14159265358979323846;
+using base::pi;
 
 void harmonicFactors(const int degree, const double mu, double* const factors)
 {

@@ -1,4 +1,5 @@
 #include "physics/limb_darkening.hpp"
+#include "base/angles.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -6,7 +7,7 @@ namespace sky::physics {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using base::pi;
 constexpr int rings = 24;
 
 /// Share of a ring of radius r around the Sun's centre that lies outside the Moon's disc of radius b at distance d.

@@ -1,4 +1,5 @@
 #include "physics/moments.hpp"
+#include "base/angles.hpp"
 #include "physics/harmonics.hpp"
 #include "physics/table_axes.hpp"
 #include <algorithm>
@@ -8,7 +9,7 @@ namespace sky::physics {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using base::pi;
 
 /// Neighbouring intervals, as a share of this one, below which a level counts as an end.
 constexpr double unevenness = 0.25;

@@ -1,11 +1,12 @@
 #include "physics/quadrature.hpp"
+#include "base/angles.hpp"
 #include <cmath>
 
 namespace sky::physics {
 
 Quadrature gaussLegendre(const int count, const double a, const double b)
 {
-    constexpr double pi = 3.14159265358979323846;
+    using base::pi;
     Quadrature rule{std::vector<double>(count), std::vector<double>(count)};
     const double centre = 0.5 * (a + b), half = 0.5 * (b - a);
     for (int i = 0; i < (count + 1) / 2; ++i) {

@@ -1,11 +1,12 @@
 #include "physics/sky.hpp"
+#include "base/angles.hpp"
 #include "physics/harmonics.hpp"
 #include <algorithm>
 #include <cmath>
 
 namespace sky::physics {
 
-constexpr double pi = 3.14159265358979323846;
+using base::pi;
 
 SkyEvaluator::SkyEvaluator(const Medium& medium, const Profile& profile, const Optics& optics, const SunTable& sun)
     : medium_(medium), profile_(profile), optics_(optics), sun_(sun)

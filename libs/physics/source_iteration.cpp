@@ -1,4 +1,5 @@
 #include "physics/source_iteration.hpp"
+#include "base/angles.hpp"
 #include "physics/harmonics.hpp"
 #include <algorithm>
 #include <cmath>
@@ -8,7 +9,7 @@ namespace sky::physics {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using base::pi;
 
 void toLogRatios(Moments& m)
 {

@@ -1,4 +1,5 @@
 #include "physics/sun.hpp"
+#include "base/angles.hpp"
 #include "physics/quadrature.hpp"
 #include "physics/ray.hpp"
 #include "physics/table_axes.hpp"
@@ -10,7 +11,7 @@ namespace sky::physics {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using base::pi;
 
 /// Between two altitudes of the table that need no other between them: the vertical optical depth, and how far it may be from a
 /// straight line in the middle (a low Sun's optical depth is some five times as large while its light still counts). Then the most

@@ -1,9 +1,10 @@
 #include "physics/table_axes.hpp"
+#include "base/angles.hpp"
 #include <algorithm>
 
 namespace sky::physics {
 
-constexpr double pi = 3.14159265358979323846;
+using base::pi;
 
 std::vector<double> altitudeNodes(const Planet& planet, const int count)
 {

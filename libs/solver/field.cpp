@@ -10,7 +10,6 @@ namespace sky::solver {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double toLog2 = 1.44269504088896340736;
 
 /// One node under one Sun: `levels` are the field at the four altitudes of its stencil, [lm][stride] each.

@@ -1,4 +1,5 @@
 #include "solver/gather.hpp"
+#include "base/angles.hpp"
 #include "sky_shaders.hpp"
 #include "solver/dispatch.hpp"
 #include <algorithm>
@@ -27,7 +28,7 @@ std::vector<float> sunDepthTexels(const Scene& scene)
 
 std::vector<float> phaseTexels(const Scene& scene, bool field)
 {
-    constexpr double pi = 3.14159265358979323846;
+    using base::pi;
     const int sets = scene.sets(), wavelengths = scene.optics.wavelengths, degree = scene.optics.degree;
     const std::size_t rows = field ? degree + 1 : scene.medium.scatteringAngles.size();
     std::vector<float> values(scene.scatterers() * rows * sets * 4, 0.F);

@@ -1,4 +1,5 @@
 #include "solver/iterate.hpp"
+#include "base/angles.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "physics/harmonics.hpp"
@@ -10,7 +11,7 @@ namespace sky::solver {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using base::pi;
 constexpr int mostEvents = 200;
 
 using physics::harmonicCount;

@@ -1,4 +1,5 @@
 #include "solver/medium_tables.hpp"
+#include "base/angles.hpp"
 #include "gl/buffer.hpp"
 #include "gl/program.hpp"
 #include "physics/harmonics.hpp"
@@ -12,7 +13,7 @@ namespace sky::solver {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using base::pi;
 constexpr int angleCount = 1201;
 /// Two tenths of what the solver's own grids resolve.
 constexpr double densityTolerance = 1e-4;

@@ -1,4 +1,5 @@
 #include "solver/rays.hpp"
+#include "base/angles.hpp"
 #include "base/parallel.hpp"
 #include "physics/harmonics.hpp"
 #include <algorithm>
@@ -8,7 +9,7 @@ namespace sky::solver {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using base::pi;
 
 /// A buffer must not be empty: OpenGL has no views of nothing.
 std::vector<float> orOneTexel(std::vector<float> values)

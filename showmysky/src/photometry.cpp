@@ -1,4 +1,5 @@
 #include "showmysky/photometry.hpp"
+#include "base/angles.hpp"
 #include "cities.hpp"
 #include "glow.hpp"
 #include "photometry_eclipse.hpp"
@@ -16,7 +17,7 @@ namespace physics = sky::physics;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using base::pi;
 
 void checkRange(const char* name, double value, double low, double high, const char* range)
 {

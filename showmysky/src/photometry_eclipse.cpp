@@ -1,5 +1,6 @@
 #include "photometry_eclipse.hpp"
 
+#include "base/angles.hpp"
 #include "bodies.hpp"
 #include "eclipse_view.hpp"
 #include <algorithm>
@@ -11,7 +12,7 @@ namespace physics = sky::physics;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using base::pi;
 /// Along a ray through the shadow.
 constexpr int eclipseNodes = 400;
 

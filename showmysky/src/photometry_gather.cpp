@@ -1,4 +1,5 @@
 #include "photometry_gather.hpp"
+#include "base/angles.hpp"
 #include "physics/harmonics.hpp"
 #include <algorithm>
 #include <cmath>
@@ -10,7 +11,7 @@ namespace physics = sky::physics;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using base::pi;
 
 /// Sunlight at one node, added to what is scattered there: optical depth bilinear between four table entries.
 struct SunNode {

@@ -2,13 +2,14 @@
 // An Earth of four wavelengths, a Sun and a Moon, and the field of higher orders around a camera.
 
 #include "../montecarlo/sample_air.hpp"
+#include "base/angles.hpp"
 #include "eclipse/field.hpp"
 #include "physics/moments.hpp"
 #include <cmath>
 
 namespace sky::eclipse::test {
 
-constexpr double pi = 3.14159265358979323846, degrees = pi / 180;
+constexpr double degrees = sky::base::degree;
 
 /// Coarser than the settings of a user: what is tested doesn't depend on them, or says so.
 inline FieldSettings coarse()

@@ -1,4 +1,5 @@
 // Light scattered twice in totality, summed over the sphere at points of one line of sight: no harmonics, no grid, no map.
+#include "base/angles.hpp"
 #include "base/parallel.hpp"
 #include "eclipse/frame.hpp"
 #include "physics/directions.hpp"
@@ -16,7 +17,7 @@ using physics::RayTracer;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using sky::base::pi;
 
 double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 

@@ -1,6 +1,7 @@
 // Interpolation of the 4D tables: nodes give what was written, logarithms go straight between them, the dark stays
 // dark.
 #include "model/scattering_table.hpp"
+#include "base/angles.hpp"
 #include "base/error.hpp"
 #include "physics/table_axes.hpp"
 #include "support.hpp"
@@ -13,7 +14,7 @@ using namespace sky::model::test;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using sky::base::pi;
 constexpr int suns = 5, views = 8, azimuths = 4;
 const physics::Planet planet{6.371e6, 1.2e5}; // smallManifest's
 const double vDark = physics::sunTableDarkEnd(0.4);

@@ -2,13 +2,14 @@
 // Media of the tests, beside those of the Monte Carlo tables (tests/montecarlo/sample_air.hpp): small, from formulas.
 
 #include "../montecarlo/sample_air.hpp"
+#include "base/angles.hpp"
 #include "physics/medium.hpp"
 #include <cmath>
 #include <functional>
 
 namespace sky::test {
 
-constexpr double pi = 3.14159265358979323846;
+using sky::base::pi;
 
 /// sr^-1; source: Henyey & Greenstein 1941.
 inline double henyeyGreenstein(double g, double angle)

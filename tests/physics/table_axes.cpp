@@ -1,6 +1,7 @@
 // Where the nodes of the tables stand: on the horizon from both sides, at both ends, and back from a place to its
 // index.
 #include "physics/table_axes.hpp"
+#include "base/angles.hpp"
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <iterator>
@@ -9,7 +10,7 @@ using namespace sky::physics;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using sky::base::pi;
 const Planet earth{6.371e6, 120e3}, shallow{1e10, 1.}, swollen{1e5, 1e6};
 
 } // namespace

@@ -1,5 +1,6 @@
 // The renderer in eclipses.
 
+#include "base/angles.hpp"
 #include "shadow_light.hpp"
 #include "showmysky/photometry.h"
 #include "showmysky/photometry.hpp"
@@ -13,7 +14,7 @@ using namespace showmysky::testing;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using sky::base::pi;
 
 /// The eclipse of the sample descriptions, the Moon `apart` degrees above the Sun.
 SceneSettings eclipse(double sunZenithDeg, double apartDeg, double moonDistance = 371925e3)

@@ -2,6 +2,7 @@
 
 #include "showmysky/photometry.h"
 #include "../physics/reference_table.hpp"
+#include "base/angles.hpp"
 #include "photometry_model.hpp"
 #include "showmysky/photometry.hpp"
 #include <catch2/catch.hpp>
@@ -16,7 +17,8 @@ using showmysky::Error;
 using showmysky::ErrorKind;
 using showmysky::Photometer;
 
-constexpr double pi = 3.14159265358979323846, degree = pi / 180;
+using sky::base::degree;
+using sky::base::pi;
 
 const Photometer& fast()
 {

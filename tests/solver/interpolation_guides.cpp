@@ -1,5 +1,6 @@
 // Why no interpolation guides are needed: the belt of Venus from the tables against the same from moments
 // (docs/interpolation-guides.md).
+#include "base/angles.hpp"
 #include "model/evaluate.hpp"
 #include "model/medium_tables.hpp"
 #include "model/scattering_table.hpp"
@@ -14,7 +15,8 @@ using namespace sky::solver::test;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846, degree = pi / 180;
+using sky::base::degree;
+using sky::base::pi;
 
 /// The sky at the antisolar azimuth, as colours, from a model's textures.
 class Textures

@@ -1,5 +1,6 @@
 // Every function of shaders/lib on the GPU against its twin in double precision, over tables of inputs with their hard points.
 #include "../gl/context_for_tests.hpp"
+#include "base/angles.hpp"
 #include "gl/buffer.hpp"
 #include "gl/program.hpp"
 #include "physics/moments.hpp"
@@ -13,7 +14,7 @@ using namespace sky;
 namespace {
 
 using Vec4 = std::array<float, 4>;
-constexpr double pi = 3.14159265358979323846;
+using sky::base::pi;
 
 /// The values of a GLSL expression of `vec4 x`, with a file of shaders/lib included.
 std::vector<float> evaluate(const gl::Api& api, const std::string& include, const std::string& expression, const std::vector<Vec4>& inputs)

@@ -1,5 +1,6 @@
 // Tables where the sky is dark, as an exposure a hundred thousand times longer would show them. docs/stress.md
 
+#include "base/angles.hpp"
 #include "model/precision.hpp"
 #include "model/scattering_table.hpp"
 #include "physics/colour.hpp"
@@ -11,7 +12,8 @@ using namespace sky;
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846, degree = pi / 180;
+using sky::base::degree;
+using sky::base::pi;
 
 const model::Model& earth()
 {

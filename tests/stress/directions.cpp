@@ -1,5 +1,6 @@
 // Directions, heights and Suns at which other programs showed black pixels, stripes, seams and stairs. docs/stress.md
 
+#include "base/angles.hpp"
 #include "showmysky/photometry.hpp"
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -11,7 +12,8 @@ namespace {
 using showmysky::Photometer;
 using View = Photometer::View;
 
-constexpr double pi = 3.14159265358979323846, degree = pi / 180;
+using sky::base::degree;
+using sky::base::pi;
 constexpr unsigned sky = Photometer::singleScattering | Photometer::multipleScattering;
 
 const Photometer& photometer()
