@@ -22,8 +22,8 @@ public:
     void add(const Sums& event);
     /// Of the events that were added.
     const Sums& sum() const { return sum_; }
-    /// Relative difference that the last event made to what `total` will answer, rms over the same places. What is left to do is
-    /// smaller: each event closes the series several times better than the last.
+    /// Relative difference that the last event made to what `total` will answer, rms over the same places. Taken as a bound
+    /// of what is left, which holds as long as changes fall by half or more from event to event.
     double change() const { return change_; }
     Sums total() const;
 
