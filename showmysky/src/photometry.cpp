@@ -17,7 +17,7 @@ namespace physics = sky::physics;
 
 namespace {
 
-using base::pi;
+using sky::base::pi;
 
 void checkRange(const char* name, double value, double low, double high, const char* range)
 {

@@ -12,7 +12,7 @@ namespace physics = sky::physics;
 
 namespace {
 
-using base::pi;
+using sky::base::pi;
 /// Along a ray through the shadow.
 constexpr int eclipseNodes = 400;
 

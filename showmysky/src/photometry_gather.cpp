@@ -11,7 +11,7 @@ namespace physics = sky::physics;
 
 namespace {
 
-using base::pi;
+using sky::base::pi;
 
 /// Sunlight at one node, added to what is scattered there: optical depth bilinear between four table entries.
 struct SunNode {
