@@ -1,3 +1,4 @@
+#include "base/angles.hpp"
 #include "eclipse/frame.hpp"
 #include "eclipse/grid.hpp"
 #include "scene.hpp"
@@ -5,6 +6,7 @@
 
 using namespace sky::eclipse;
 using namespace sky::eclipse::test;
+using sky::base::pi;
 
 namespace {
 
