@@ -11,6 +11,7 @@
 #include "physics/medium.hpp"
 #include "physics/optics.hpp"
 #include "physics/profile.hpp"
+#include "physics/ray.hpp"
 #include "physics/sun.hpp"
 #include <functional>
 #include <memory>
@@ -37,6 +38,11 @@ struct ViewRay {
 /// Rays that are seen, traced: what of a view does not depend on Sun, Moon and azimuth. Keep it while the camera's altitude stays.
 class TracedViews;
 std::shared_ptr<const TracedViews> traceViews(const AirRays& air, const std::vector<ViewRay>& views);
+/// Every node of rays as a view of its own, [node of all rays]: light from there alone, as it adds up along a ray.
+///   rays  scales of their nodes as seen from the camera, which may stand above the air
+///   mu    [ray], cosines of their zenith angles at the camera
+std::shared_ptr<const TracedViews> traceNodes(const AirRays& air, const std::vector<physics::RayNodes>& rays,
+                                              const std::vector<double>& mu);
 
 /// Light in directions of view, [ray][azimuth][wavelength], per unit solar irradiance.
 struct ViewLight {

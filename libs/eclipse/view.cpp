@@ -120,6 +120,22 @@ std::shared_ptr<const TracedViews> traceViews(const AirRays& air, const std::vec
     return result;
 }
 
+std::shared_ptr<const TracedViews> traceNodes(const AirRays& air, const std::vector<physics::RayNodes>& rays, const std::vector<double>& mu)
+{
+    auto result = std::make_shared<TracedViews>();
+    const auto row = static_cast<std::size_t>(air.scatterers * air.wavelengths);
+    physics::RayNodes one;
+    for (std::size_t r = 0; r < rays.size(); ++r)
+        for (std::size_t k = 0; k < rays[r].nodes.size(); ++k) {
+            const auto& node = rays[r].nodes[k];
+            one.nodes.assign(1, node);
+            one.weights.assign(&rays[r].weights[k * row], &rays[r].weights[k * row] + row);
+            const double distance = groundDistance(air.profile.planet().radius, node.sunScale, node.nuScale, mu[r]);
+            result->rays.push_back({false, {air.levels.place(node.altitude, distance)}, 0, air.coefficientsOf(one)});
+        }
+    return result;
+}
+
 ViewLight ScatteredField::view(const std::vector<ViewRay>& views, const std::vector<double>& azimuths) const
 {
     return view(*traceViews(*state_->air, views), azimuths);

@@ -63,7 +63,6 @@ Aerial::Aerial(const Atmosphere& atmosphere, const Phases& phases, const physics
 void Aerial::set(AerialScene scene)
 {
     scene_ = std::move(scene);
-    whole_ = scene_.whole.empty() ? ViewTable(halfViews, azimuths) : resampled(scene_.whole, halfViews, azimuths);
     sines_ = viewSines(atmosphere_.planet(), scene_.altitude, halfViews);
     texels_.assign(static_cast<std::size_t>(tables(atmosphere_.scatterers()) * distances * 2 * halfViews * columns()), Texel{});
     done_ = 0;
@@ -72,10 +71,33 @@ void Aerial::set(AerialScene scene)
 bool Aerial::step(int lines)
 {
     const int end = std::min(2 * halfViews, done_ + lines), first = done_;
+    std::vector<Line> traced(static_cast<std::size_t>(end - first));
     sky::base::parallel([&](int thread, int threads) {
         physics::RayTracer tracer(atmosphere_.profile, atmosphere_.optics, 0.25);
         for (int view = first + thread; view < end; view += threads)
-            trace(view, tracer);
+            traced[static_cast<std::size_t>(view - first)] = trace(view, tracer);
+    });
+    std::vector<float> shares;
+    std::vector<std::size_t> firstShare; // [line]
+    if (scene_.eclipse && scene_.eclipse->higherOrders) {
+        std::vector<physics::RayNodes> lines;
+        std::size_t nodes = 0;
+        for (const Line& line : traced) {
+            firstShare.push_back(nodes * static_cast<std::size_t>(columns() * atmosphere_.wavelengths()));
+            nodes += line.multiple.nodes.size();
+            lines.push_back(line.multiple);
+        }
+        std::vector<double> relative;
+        for (int a = 0; a < columns(); ++a)
+            relative.push_back(relativeAzimuth(a));
+        shares = scene_.eclipse->higherOrders(lines, {sines_.begin() + first, sines_.begin() + end}, relative);
+    }
+    sky::base::parallel([&](int thread, int threads) {
+        for (int view = first + thread; view < end; view += threads) {
+            const auto i = static_cast<std::size_t>(view - first);
+            if (!traced[i].multiple.nodes.empty())
+                growLight(view, traced[i], shares.empty() ? nullptr : &shares[firstShare[i]]);
+        }
     });
     done_ = end;
     return done_ == 2 * halfViews;
@@ -95,14 +117,16 @@ Texel Aerial::luminance(const std::vector<double>& radiance) const
     return sum;
 }
 
-Aerial::Line Aerial::line(const physics::SeenColumns& seen, const AirEntry& entry, bool ground, int parts) const
+double Aerial::relativeAzimuth(int column) const { return pi * (scene_.eclipse ? column - (azimuths - 1) : column) / (azimuths - 1); }
+
+physics::RayNodes Aerial::nodes(const physics::SeenColumns& seen, const AirEntry& entry, bool ground, int parts) const
 {
     const auto& planet = atmosphere_.planet();
     const auto scatterers = static_cast<std::size_t>(atmosphere_.scatterers());
     const auto wavelengths = static_cast<std::size_t>(atmosphere_.wavelengths());
     const auto spacing = spacingOf(planet, scene_.altitude, ground);
     const double radius = planet.radius + entry.altitude, length = seen.distances.back();
-    Line result;
+    physics::RayNodes result;
     std::vector<double> before(scatterers * wavelengths, 0.);
     double from = 0;
     for (int k = 1; k < distances; ++k)
@@ -114,28 +138,29 @@ Aerial::Line Aerial::line(const physics::SeenColumns& seen, const AirEntry& entr
             result.nodes.push_back(entry.node({h, radius / there, s / there, std::clamp((radius * entry.mu + s) / there, -1., 1.)}));
             const auto upTo = seenUpTo(seen, to, scatterers, wavelengths).columns;
             for (std::size_t i = 0; i < upTo.size(); ++i)
-                result.columns.push_back(upTo[i] - before[i]);
+                result.weights.push_back(upTo[i] - before[i]);
             before = upTo;
             from = to;
         }
     return result;
 }
 
-void Aerial::trace(int view, physics::RayTracer& tracer)
+Aerial::Line Aerial::trace(int view, physics::RayTracer& tracer)
 {
     const auto& planet = atmosphere_.planet();
     const double mu = sines_[static_cast<std::size_t>(view)];
     const bool ground = view >= halfViews;
     const auto entry = enterAir(planet, scene_.altitude, mu);
+    Line result;
     if (!entry)
-        return;
+        return result;
     const auto scatterers = static_cast<std::size_t>(atmosphere_.scatterers());
     const auto wavelengths = static_cast<std::size_t>(atmosphere_.wavelengths());
     const auto seen = tracer.seen(entry->altitude, entry->mu, ground);
     const double length = seen.distances.back();
     const auto spacing = spacingOf(planet, scene_.altitude, ground);
     const Texel white = luminance(std::vector<double>(wavelengths, 1.));
-    std::vector<Texel> columnShares;
+    auto& columnShares = result.columnShares;
     for (int k = 0; k < distances; ++k) {
         const Seen upTo = seenUpTo(seen, aerialDistance(double(k) / (distances - 1), length, spacing), scatterers, wavelengths);
         const Texel through = luminance(upTo.transmittance);
@@ -153,16 +178,22 @@ void Aerial::trace(int view, physics::RayTracer& tracer)
     for (Texel& share : columnShares)
         for (std::size_t c = 0; c < 4; ++c)
             share[c] = columnShares.back()[c] > faintest ? share[c] / columnShares.back()[c] : 1.f;
-    growLight(view, mu, line(seen, *entry, ground, singleParts), line(seen, *entry, ground, 1), columnShares);
+    result.single = nodes(seen, *entry, ground, singleParts);
+    result.multiple = nodes(seen, *entry, ground, 1);
+    return result;
 }
 
-void Aerial::growLight(int view, double mu, const Line& single, const Line& multiple, const std::vector<Texel>& columnShares)
+void Aerial::growLight(int view, const Line& line, const float* shares)
 {
+    const auto& single = line.single;
+    const auto& multiple = line.multiple;
+    const auto& columnShares = line.columnShares;
     const auto scatterers = static_cast<std::size_t>(atmosphere_.scatterers());
     const auto wavelengths = static_cast<std::size_t>(atmosphere_.wavelengths());
     const auto& optics = atmosphere_.optics;
     const physics::SkyEvaluator evaluator(atmosphere_.medium, atmosphere_.profile, optics, sun_);
-    const double muSun = scene_.muSun, sines = std::sqrt(std::max(0., (1 - mu * mu) * (1 - muSun * muSun)));
+    const double mu = sines_[static_cast<std::size_t>(view)], muSun = scene_.muSun;
+    const double sines = std::sqrt(std::max(0., (1 - mu * mu) * (1 - muSun * muSun)));
     const std::size_t stride = scatterers * wavelengths;
     std::vector<double> light(wavelengths), ratio(wavelengths), part(wavelengths);
     std::vector<Texel> grown(distances);
@@ -175,10 +206,9 @@ void Aerial::growLight(int view, double mu, const Line& single, const Line& mult
     };
     const double radius = atmosphere_.planet().radius + scene_.altitude, flat = std::sqrt(std::max(0., 1 - mu * mu));
     for (int a = 0; a < columns(); ++a) {
-        const int fromSun = scene_.sunlight ? a - (azimuths - 1) : a; // columns
-        const double relative = pi * fromSun / (azimuths - 1), nu = std::clamp(mu * muSun + sines * std::cos(relative), -1., 1.);
-        const std::array<double, 3> direction{flat * std::cos(scene_.sunAzimuth + relative), flat * std::sin(scene_.sunAzimuth + relative),
-                                              mu};
+        const double relative = relativeAzimuth(a), nu = std::clamp(mu * muSun + sines * std::cos(relative), -1., 1.);
+        const double azimuth = (scene_.eclipse ? scene_.eclipse->sunAzimuth : 0) + relative;
+        const std::array<double, 3> direction{flat * std::cos(azimuth), flat * std::sin(azimuth), mu};
         std::vector<double> lit(stride, 0.);
         std::vector<std::vector<Texel>> singles(scatterers, std::vector<Texel>(distances, Texel{}));
         std::vector<std::vector<double>> ratios(scatterers, std::vector<double>(wavelengths));
@@ -190,17 +220,17 @@ void Aerial::growLight(int view, double mu, const Line& single, const Line& mult
         for (std::size_t n = 0; n < single.nodes.size(); ++n) {
             const auto& node = single.nodes[n];
             sun_.transmittance(node.altitude, std::clamp(node.sunScale * muSun + node.nuScale * nu, -1., 1.), light.data());
-            if (scene_.sunlight) {
+            if (scene_.eclipse) {
                 const double distance = radius * node.nuScale / node.sunScale;
                 const auto left = static_cast<double>(
-                    scene_.sunlight({static_cast<float>(distance * direction[0]), static_cast<float>(distance * direction[1]),
-                                     static_cast<float>(distance * direction[2])}));
+                    scene_.eclipse->sunlight({static_cast<float>(distance * direction[0]), static_cast<float>(distance * direction[1]),
+                                              static_cast<float>(distance * direction[2])}));
                 for (double& value : light)
                     value *= left;
             }
             for (std::size_t i = 0; i < scatterers; ++i)
                 for (std::size_t w = 0; w < wavelengths; ++w)
-                    lit[i * wavelengths + w] += single.columns[n * stride + i * wavelengths + w] * light[w];
+                    lit[i * wavelengths + w] += single.weights[n * stride + i * wavelengths + w] * light[w];
             if ((n + 1) % singleParts == 0)
                 for (std::size_t i = 0; i < scatterers; ++i) {
                     for (std::size_t w = 0; w < wavelengths; ++w)
@@ -218,13 +248,18 @@ void Aerial::growLight(int view, double mu, const Line& single, const Line& mult
             physics::RayNodes one;
             for (std::size_t n = 0; n < multiple.nodes.size(); ++n) {
                 one.nodes.assign(1, multiple.nodes[n]);
-                one.weights.assign(&multiple.columns[n * stride], &multiple.columns[n * stride] + stride);
-                evaluator.multipleAlong(one, *moments_, muSun, nu, sum.data());
+                one.weights.assign(&multiple.weights[n * stride], &multiple.weights[n * stride] + stride);
+                std::fill(part.begin(), part.end(), 0.);
+                evaluator.multipleAlong(one, *moments_, muSun, nu, part.data());
+                const float* left =
+                    shares ? &shares[(n * static_cast<std::size_t>(columns()) + static_cast<std::size_t>(a)) * wavelengths] : nullptr;
+                for (std::size_t w = 0; w < wavelengths; ++w)
+                    sum[w] += (left ? static_cast<double>(left[w]) : 1) * part[w];
                 grown[n + 1] = luminance(sum);
             }
         }
         Texel total = grown.back();
-        const Texel& seen = whole_.at(view, std::abs(fromSun));
+        const Texel seen = scene_.whole.empty() ? Texel{} : scene_.whole.at(view, a);
         if (view >= halfViews)
             total = seen; // with the ground
         else if (scene_.glow)

@@ -11,6 +11,7 @@
 #include "settings_used.hpp"
 #include "sky_view.hpp"
 #include <functional>
+#include <optional>
 
 namespace showmysky {
 
@@ -19,11 +20,19 @@ struct AerialScene {
     double altitude = 0, muSun = 0;
     LayersUsed layers;
     std::vector<Texel> weights; ///< X, Y, Z, scotopic of unit radiance per unit solar irradiance, [wavelength]
-    ViewTable whole;            ///< SkyView::whole without any Moon: what light before the ground is a share of
-    bool glow = false;          ///< some of `whole` isn't the Sun's light
-    /// In an eclipse: the share of the Sun's light that is left at a point in the camera's frame, m; empty without one.
-    std::function<float(const std::array<float, 3>&)> sunlight{};
-    double sunAzimuth = 0; ///< in the frame, from x to y; matters in an eclipse
+    /// SkyView::whole at the nodes of these tables (Aerial::halfViews, `columns`): what light before the ground is a share of.
+    ViewTable whole;
+    bool glow = false; ///< some of `whole` isn't the Sun's light
+    struct Eclipse {
+        double sunAzimuth = 0; ///< in the frame, from x to y
+        /// Share of the Sun's light that is left at a point in the camera's frame, m.
+        std::function<float(const std::array<float, 3>&)> sunlight;
+        /// That of the light of higher orders from the nodes of lines of sight: EclipseSky::nodeRatios.
+        std::function<std::vector<float>(const std::vector<sky::physics::RayNodes>& lines, const std::vector<double>& sines,
+                                         const std::vector<double>& relative)>
+            higherOrders;
+    };
+    std::optional<Eclipse> eclipse{};
 };
 
 class Aerial
@@ -39,21 +48,24 @@ public:
     bool step(int lines);
 
     /// `azimuths` of the half turn from the Sun's; in an eclipse of the whole turn, from -pi to pi.
-    int columns() const { return scene_.sunlight ? 2 * azimuths - 1 : azimuths; }
+    static int columns(bool eclipse) { return eclipse ? 2 * azimuths - 1 : azimuths; }
+    int columns() const { return columns(scene_.eclipse.has_value()); }
     /// [table][distance][view][column]. Tables: shares of SkyView::whole and of each scatterer, 0..1; last the optical depth of
     /// light with the Sun's spectrum.
     const std::vector<Texel>& texels() const { return texels_; }
     static int tables(int scatterers) { return scatterers + 2; }
 
 private:
-    /// What a line's nodes have to do with the Sun's place only.
+    /// A line of sight: intervals between its distances, seen from the camera, each a node with the scattering seen there.
     struct Line {
-        std::vector<sky::physics::RayNodes::Node> nodes; ///< [interval], seen from the camera
-        std::vector<double> columns;                     ///< [interval][scatterer][wavelength]: scattering seen
+        sky::physics::RayNodes single, multiple;
+        std::vector<Texel> columnShares; ///< [distance]: of what all its air scatters towards the camera
     };
-    Line line(const sky::physics::SeenColumns& seen, const AirEntry& entry, bool ground, int parts) const;
-    void trace(int view, sky::physics::RayTracer& tracer);
-    void growLight(int view, double mu, const Line& single, const Line& multiple, const std::vector<Texel>& columnShares);
+    sky::physics::RayNodes nodes(const sky::physics::SeenColumns& seen, const AirEntry& entry, bool ground, int parts) const;
+    Line trace(int view, sky::physics::RayTracer& tracer);
+    /// \param shares  of light of higher orders left in an eclipse, [interval][column][wavelength]; null without one
+    void growLight(int view, const Line& line, const float* shares);
+    double relativeAzimuth(int column) const;
     Texel luminance(const std::vector<double>& radiance) const;
     Texel& at(int table, int distance, int view, int column);
 
@@ -62,7 +74,6 @@ private:
     const sky::physics::Moments* moments_;
     const sky::physics::SunTable& sun_;
     AerialScene scene_;
-    ViewTable whole_; ///< at the nodes of these tables
     std::vector<double> sines_;
     std::vector<Texel> texels_;
     int done_ = 0;

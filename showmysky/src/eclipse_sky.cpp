@@ -19,22 +19,6 @@ using sky::base::pi;
 constexpr int ratioHalfViews = 10, ratioAzimuths = 16;
 constexpr int sharesPerStep = 16;
 
-/// Bilinear, in the coordinates of an ordinary table.
-Texel sampled(const ViewTable& table, double coordinate, int half, double azimuth)
-{
-    const double v = std::clamp(coordinate, 0., 1.) * (table.halfViews - 1), a = std::clamp(azimuth, 0., 1.) * (table.azimuths - 1);
-    const int i = std::min(static_cast<int>(v), table.halfViews - 2), k = std::min(static_cast<int>(a), table.azimuths - 2);
-    const auto y = static_cast<float>(v - i), x = static_cast<float>(a - k);
-    const int row = half * table.halfViews + i;
-    Texel result;
-    for (std::size_t c = 0; c < 4; ++c) {
-        const float low = table.at(row, k)[c] + x * (table.at(row, k + 1)[c] - table.at(row, k)[c]);
-        const float high = table.at(row + 1, k)[c] + x * (table.at(row + 1, k + 1)[c] - table.at(row + 1, k)[c]);
-        result[c] = low + y * (high - low);
-    }
-    return result;
-}
-
 bool same(const eclipse::Orders& a, const eclipse::Orders& b)
 {
     return a.orders == b.orders && a.all == b.all && a.tolerance == b.tolerance;
@@ -87,7 +71,6 @@ bool EclipseSky::step()
     return true;
 }
 
-/// Does a part of the work on the field; true once it is there.
 bool EclipseSky::followField()
 {
     if (field_)
@@ -263,6 +246,23 @@ EclipseSky::Ratios EclipseSky::ratios(const std::array<double, 3>& direction, co
         result.sky[static_cast<std::size_t>(w)] = static_cast<double>(light.skyRatio(0, 0, w));
         result.ground[static_cast<std::size_t>(w)] = static_cast<double>(light.groundRatio(0, 0, w));
     }
+    return result;
+}
+
+std::vector<float> EclipseSky::nodeRatios(const std::vector<physics::RayNodes>& lines, const std::vector<double>& sines,
+                                          const std::vector<double>& relative) const
+{
+    std::vector<double> azimuths;
+    for (const double fromSun : relative)
+        azimuths.push_back(sunAzimuth_ + fromSun);
+    const auto light = field_->view(*eclipse::traceNodes(*air_, lines, sines), azimuths);
+    std::vector<float> result;
+    result.reserve(light.eclipsed.size());
+    const int rows = static_cast<int>(light.eclipsed.size()) / std::max(1, light.azimuths * light.wavelengths);
+    for (int i = 0; i < rows; ++i)
+        for (int a = 0; a < light.azimuths; ++a)
+            for (int w = 0; w < light.wavelengths; ++w)
+                result.push_back(light.skyRatio(i, a, w));
     return result;
 }
 

@@ -55,8 +55,16 @@ public:
     };
     Ratios ratios(const std::array<double, 3>& direction, bool ground);
 
-private:
+    /// Does a part of the work on the field of higher orders, which pictures may do without; true once it is there.
     bool followField();
+    /// Share left of the light of higher orders that comes from each node of lines of sight, [node of all lines][azimuth][wavelength].
+    /// The field must be there.
+    ///   lines, sines  nodes as seen from the camera, sines of the elevations
+    ///   relative      azimuths from the Sun's, counted from x to y
+    std::vector<float> nodeRatios(const std::vector<sky::physics::RayNodes>& lines, const std::vector<double>& sines,
+                                  const std::vector<double>& relative) const;
+
+private:
     std::vector<sky::eclipse::ViewRay> viewRays() const;
     void tabulateRatios();
     Texel ratioAt(const std::vector<Texel>& table, double coordinate, int half, double relative) const;

@@ -12,19 +12,6 @@ using sky::base::pi;
 /// Angles from the Sun, dense near it as cubes, and directions around it.
 constexpr int angles = 160, turns = 96;
 
-/// Bilinear, as the painter's textures are filtered.
-Texel sampled(const ViewTable& table, double view, double azimuth)
-{
-    const double y = view * (table.halfViews - 1), x = azimuth * (table.azimuths - 1);
-    const int v = std::clamp(static_cast<int>(y), 0, table.halfViews - 2), a = std::clamp(static_cast<int>(x), 0, table.azimuths - 2);
-    const auto fv = static_cast<float>(y - v), fa = static_cast<float>(x - a);
-    const Texel &p = table.at(v, a), &q = table.at(v, a + 1), &r = table.at(v + 1, a), &s = table.at(v + 1, a + 1);
-    Texel result;
-    for (std::size_t c = 0; c < 4; ++c)
-        result[c] = (1 - fv) * (p[c] + fa * (q[c] - p[c])) + fv * (r[c] + fa * (s[c] - r[c]));
-    return result;
-}
-
 } // namespace
 
 Texel skyIlluminance(const SkyView& view, const SkyAxes& axes, const Phases& phases)
@@ -56,7 +43,7 @@ Texel skyIlluminance(const SkyView& view, const SkyAxes& axes, const Phases& pha
             for (std::size_t i = 0; i < tables.size(); ++i) {
                 if (tables[i].empty())
                     continue;
-                const Texel light = sampled(tables[i], row, column);
+                const Texel light = sampled(tables[i], row, 0, column);
                 for (std::size_t c = 0; c < 4; ++c)
                     sum[c] += static_cast<double>(phase[i] * light[c]) * up * solidAngle;
             }

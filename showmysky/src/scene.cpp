@@ -368,13 +368,21 @@ bool Scene::lightCities()
     return true;
 }
 
-ViewTable Scene::undimmedWhole() const
+/// SkyView::whole at the nodes of aerial perspective.
+ViewTable Scene::wholeOfLines() const
 {
-    if (settings_.eclipse == EclipseMode::off)
-        return view_.whole;
-    ViewTable result = resampled(ordinary_.view.whole, drawnHalfViews, drawnAzimuths);
-    for (const ViewTable* part : {&ordinary_.groundDirect, &ordinary_.groundDiffuse, &ordinary_.glow})
-        result = sum(result, resampled(*part, drawnHalfViews, drawnAzimuths));
+    if (view_.whole.empty() || !view_.eclipse)
+        return resampled(view_.whole, Aerial::halfViews, Aerial::azimuths);
+    const SkyAxes axes = skyAxes();
+    const auto sines = viewSines(atmosphere_->planet(), settings_.altitude, Aerial::halfViews);
+    const int columns = Aerial::columns(true);
+    ViewTable result(Aerial::halfViews, columns);
+    for (int v = 0; v < 2 * Aerial::halfViews; ++v) {
+        const int half = v / Aerial::halfViews;
+        const double view = axes.viewCoordinate(std::asin(sines[static_cast<std::size_t>(v)]), half);
+        for (int a = 0; a < columns; ++a)
+            result.at(v, a) = sampled(view_.whole, view, half, axes.azimuthCoordinate(pi * (2. * a / (columns - 1) - 1)));
+    }
     return result;
 }
 
@@ -382,19 +390,32 @@ bool Scene::aerialStep()
 {
     if (!aerial_)
         aerial_ = std::make_unique<Aerial>(*atmosphere_, *phases_, moments_ ? &*moments_ : nullptr, *sun_);
+    const bool eclipse = settings_.eclipse == EclipseMode::on;
+    const bool higherOrders = eclipse && moments_ && settings_.layers.multipleScattering;
+    if (higherOrders && !eclipse_->followField())
+        return false;
     if (!aerialSettings_ || !sameTables(settings_, *aerialSettings_) || !sameEclipse(settings_, *aerialSettings_)) {
         AerialScene scene{settings_.altitude, std::cos(settings_.sun.zenithAngle),
                           layersUsed(),       atmosphere_->luminanceWeights(settings_.solarSpectrumFactors),
-                          undimmedWhole(),    settings_.layers.lightPollution};
-        if (settings_.eclipse == EclipseMode::on) {
+                          wholeOfLines(),     settings_.layers.lightPollution};
+        if (eclipse) {
             const auto sun = directionOf(settings_.sun.azimuth, settings_.sun.zenithAngle);
-            scene.sunlight = [this](const std::array<float, 3>& point) { return eclipse_->lightAt(point); };
-            scene.sunAzimuth = std::atan2(sun[1], sun[0]);
+            scene.eclipse = {
+                std::atan2(sun[1], sun[0]), [this](const std::array<float, 3>& point) { return eclipse_->lightAt(point); }, {}};
+            if (higherOrders)
+                scene.eclipse->higherOrders = [this](const auto& lines, const auto& sines, const auto& relative) {
+                    return eclipse_->nodeRatios(lines, sines, relative);
+                };
         }
         aerial_->set(std::move(scene));
         aerialSettings_ = settings_;
     }
     return aerial_->step(linesPerStep);
+}
+
+SkyAxes Scene::skyAxes() const
+{
+    return {physics::horizonElevation(atmosphere_->planet(), settings_.altitude), view_.eclipse, pi / 2 - settings_.sun.zenithAngle};
 }
 
 Illuminance Scene::illuminance() const
@@ -409,7 +430,7 @@ Illuminance Scene::illuminance() const
             for (float& value : *light)
                 value *= left;
     }
-    result.skyHorizontal = skyIlluminance(view_, {scene.horizon, view_.eclipse, elevation}, *phases_);
+    result.skyHorizontal = skyIlluminance(view_, skyAxes(), *phases_);
     return result;
 }
 

@@ -65,7 +65,8 @@ private:
     ViewTable glow() const;
     bool lightCities();
     SkyView gathered(LayersUsed layers);
-    ViewTable undimmedWhole() const;
+    ViewTable wholeOfLines() const;
+    SkyAxes skyAxes() const;
     Progress eclipseStep();
     EclipseScene eclipseScene() const;
     std::vector<Texel> sunColours(int count) const;

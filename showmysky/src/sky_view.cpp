@@ -102,6 +102,21 @@ ViewTable resampled(const ViewTable& table, int halfViews, int azimuths)
     return result;
 }
 
+Texel sampled(const ViewTable& table, const double view, const int half, const double azimuth)
+{
+    const double v = std::clamp(view, 0., 1.) * (table.halfViews - 1), a = std::clamp(azimuth, 0., 1.) * (table.azimuths - 1);
+    const int i = std::min(static_cast<int>(v), table.halfViews - 2), k = std::min(static_cast<int>(a), table.azimuths - 2);
+    const auto y = static_cast<float>(v - i), x = static_cast<float>(a - k);
+    const int row = half * table.halfViews + i;
+    Texel result;
+    for (std::size_t c = 0; c < 4; ++c) {
+        const float low = table.at(row, k)[c] + x * (table.at(row, k + 1)[c] - table.at(row, k)[c]);
+        const float high = table.at(row + 1, k)[c] + x * (table.at(row + 1, k + 1)[c] - table.at(row + 1, k)[c]);
+        result[c] = low + y * (high - low);
+    }
+    return result;
+}
+
 ViewTable sum(const ViewTable& a, const ViewTable& b)
 {
     if (a.empty() || b.empty())

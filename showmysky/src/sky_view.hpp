@@ -42,6 +42,10 @@ constexpr int eclipseHalfViews = 64, eclipseAzimuths = 129;
 /// linear.
 ViewTable resampled(const ViewTable& table, int halfViews, int azimuths);
 
+/// Bilinear, as the painter's textures are filtered.
+///   view     0 at the horizon to 1 at the end of the half         azimuth  0 .. 1 over the columns
+Texel sampled(const ViewTable& table, double view, int half, double azimuth);
+
 /// Sum of two tables of the same size; an empty one counts as nothing.
 ViewTable sum(const ViewTable& a, const ViewTable& b);
 

@@ -82,6 +82,27 @@ void main()
     gl::Program program_;
 };
 
+/// What the air lets through between a camera and a point of its line of sight, [wavelength].
+///   mu, muThere  cosines of the line's zenith angle at both
+std::vector<double> transmittanceBetween(const Atmosphere& atmosphere, double altitude, double mu, double altitudeThere, double muThere)
+{
+    // Columns of a line that misses the ground, in the sense in which it does.
+    const auto species = static_cast<std::size_t>(atmosphere.optics.species);
+    const auto wavelengths = static_cast<std::size_t>(atmosphere.wavelengths());
+    physics::RayTracer tracer(atmosphere.profile, atmosphere.optics);
+    std::vector<double> outer(species), inner(species), result;
+    const bool up = !physics::hitsGround(atmosphere.planet(), altitude, mu) && muThere > 0 && mu > 0;
+    tracer.columns(up ? altitude : altitudeThere, up ? mu : -muThere, outer.data());
+    tracer.columns(up ? altitudeThere : altitude, up ? muThere : -mu, inner.data());
+    for (std::size_t w = 0; w < wavelengths; ++w) {
+        double depth = 0;
+        for (std::size_t s = 0; s < species; ++s)
+            depth += (outer[s] - inner[s]) * atmosphere.optics.extinction[s * wavelengths + w];
+        result.push_back(std::exp(-depth));
+    }
+    return result;
+}
+
 double relative(float a, float b) { return std::abs(static_cast<double>(a) / static_cast<double>(b) - 1); }
 
 } // namespace
@@ -241,21 +262,13 @@ TEST_CASE("shader functions: light of the air up to a point, and what it lets th
         std::vector<double> whole(wavelengths), beyond(wavelengths);
         evaluator.radiance(tracer, &moments, altitude, mu, muSun, nu, {}, whole.data());
         evaluator.radiance(tracer, &moments, h, muThere, muSunThere, nu, {}, beyond.data());
-        // Columns of a line that misses the ground, in the sense in which it does.
-        const auto species = static_cast<std::size_t>(atmosphere.optics.species);
-        std::vector<double> outer(species), inner(species);
-        const bool up = !physics::hitsGround(planet, altitude, mu) && muThere > 0 && mu > 0;
-        tracer.columns(up ? altitude : h, up ? mu : -muThere, outer.data());
-        tracer.columns(up ? h : altitude, up ? muThere : -mu, inner.data());
+        const auto transmittances = transmittanceBetween(atmosphere, altitude, mu, h, muThere);
         double expected = 0, all = 0, through = 0, light = 0;
         for (std::size_t w = 0; w < wavelengths; ++w) {
-            double depth = 0;
-            for (std::size_t s = 0; s < species; ++s)
-                depth += (outer[s] - inner[s]) * atmosphere.optics.extinction[s * wavelengths + w];
             const auto weight = static_cast<double>(weights[w][1]);
-            expected += weight * (whole[w] - std::exp(-depth) * beyond[w]);
+            expected += weight * (whole[w] - transmittances[w] * beyond[w]);
             all += weight * whole[w];
-            through += weight * std::exp(-depth);
+            through += weight * transmittances[w];
             light += weight;
         }
         const double drawn = static_cast<double>(radiance.ask(sky, direction, distance).y);
@@ -327,6 +340,110 @@ TEST_CASE("shader functions: in an eclipse light scattered once begins where the
     }
     CHECK(inTheDark > 0);
     CHECK(inTheDark < 4);
+}
+
+TEST_CASE("shader functions: in an eclipse light of higher orders up to a point is what the point's own sky leaves", "[gl]")
+{
+    using Vector = std::array<double, 3>;
+    const auto context = gl::testing::context(desktop());
+    if (!context)
+        return;
+    Sky sky = loadedSky(*context);
+    Host radiance(context->api(), sky, "showmyskyRadianceTo(d, metres)", 1, 1);
+    const Atmosphere atmosphere(SHOWMYSKY_TEST_MODEL);
+    const Photometer photometer(SHOWMYSKY_TEST_MODEL, Photometer::Method::reference);
+    const auto& planet = atmosphere.planet();
+    struct Case {
+        double apartDeg, asideDeg, altitude, viewZenithDeg, azimuthDeg, distance;
+    };
+    double nearest = 1; // share of the line's light, of the share without an eclipse
+    for (const auto& [apartDeg, asideDeg, altitude, viewZenithDeg, azimuthDeg, distance] :
+         {Case{0, 0, 2, 85, 90, 40e3}, Case{0.05, 0.1, 2, 80, 60, 30e3}, Case{0, 0, 3000, 97, 30, 15e3}}) {
+        CAPTURE(apartDeg, asideDeg, altitude, viewZenithDeg, azimuthDeg, distance);
+        auto settings = scene(altitude, 50);
+        settings.layers.singleScattering = false; // the ground is no part of the air, whether it is shown or not
+        sky.setSettings(settings);
+        const Vector direction = directionOf(settings.sun.azimuth + azimuthDeg * degree, viewZenithDeg * degree);
+        const double before =
+            static_cast<double>(radiance.ask(sky, direction, distance).y) / static_cast<double>(radiance.ask(sky, direction, 1e9).y);
+        settings.eclipse = EclipseMode::on;
+        settings.moon = {settings.sun.azimuth + asideDeg * degree, settings.sun.zenithAngle - apartDeg * degree, 371925e3};
+        sky.setSettings(settings);
+        const double drawn = static_cast<double>(radiance.ask(sky, direction, distance).y),
+                     all = static_cast<double>(radiance.ask(sky, direction, 1e9).y);
+
+        // Sun, Moon and line of sight as they stand at the point.
+        const double r = planet.radius + altitude;
+        const auto placeOf = [&](const Vector& towards, double fromCentre) {
+            const double t = -r * towards[2] + std::sqrt(fromCentre * fromCentre - r * r * (1 - towards[2] * towards[2]));
+            return Vector{t * towards[0], t * towards[1], t * towards[2]};
+        };
+        const Vector point{distance * direction[0], distance * direction[1], distance * direction[2]};
+        const double there = std::hypot(point[0], point[1], point[2] + r);
+        const Vector up{point[0] / there, point[1] / there, (point[2] + r) / there};
+        const double flat = std::hypot(up[0], up[2]);
+        const Vector north{up[2] / flat, 0, -up[0] / flat};
+        const Vector west{up[1] * north[2] - up[2] * north[1], up[2] * north[0] - up[0] * north[2], up[0] * north[1] - up[1] * north[0]};
+        const auto anglesTo = [&](const Vector& target) {
+            const Vector to{target[0] - point[0], target[1] - point[1], target[2] - point[2]};
+            const double x = physics::Shadow::dot(to, north), y = physics::Shadow::dot(to, west), z = physics::Shadow::dot(to, up);
+            return std::pair{std::atan2(-y, x), std::atan2(std::hypot(x, y), z)};
+        };
+        const auto sunThere = anglesTo(placeOf(directionOf(settings.sun.azimuth, settings.sun.zenithAngle), 149597870700.));
+        const auto moonThere = anglesTo(placeOf(directionOf(settings.moon.azimuth, settings.moon.zenithAngle), settings.moon.distance));
+        const auto lineThere = anglesTo({2 * point[0], 2 * point[1], 2 * point[2]});
+        const double h = physics::altitudeAlong(planet, altitude, direction[2], distance);
+        const Photometer::View views[2] = {
+            {altitude, settings.sun.zenithAngle, settings.sun.azimuth, viewZenithDeg * degree, settings.sun.azimuth + azimuthDeg * degree},
+            {h, sunThere.second, sunThere.first, lineThere.second, lineThere.first}};
+        const Moon moons[2] = {settings.moon, {moonThere.first, moonThere.second, settings.moon.distance}};
+        const auto wavelengths = sky.wavelengths().size();
+        std::vector<double> light(2 * wavelengths);
+        photometer.eclipsedRadiance(views, moons, 2, Photometer::multipleScattering, light.data());
+        const auto through = transmittanceBetween(atmosphere, altitude, direction[2], h, std::cos(lineThere.second));
+        std::vector<double> upTo(wavelengths);
+        for (std::size_t w = 0; w < wavelengths; ++w)
+            upTo[w] = light[w] - through[w] * light[wavelengths + w];
+        const double expected = photometer.colourOf(upTo.data()).Y, whole = photometer.colourOf(light.data()).Y;
+        CAPTURE(drawn, expected, all, whole, before);
+        CHECK(std::abs(drawn - expected) < 0.01 * whole);
+        CHECK(all == Approx(whole).epsilon(0.01));
+        nearest = std::min(nearest, drawn / all / before);
+    }
+    CHECK(nearest < 0.5); // the light comes from beyond the umbra
+}
+
+TEST_CASE("shader functions: in an eclipse sky and illuminance are those of single directions", "[gl]")
+{
+    const auto context = gl::testing::context(desktop());
+    if (!context)
+        return;
+    Sky sky = loadedSky(*context);
+    Host radiance(context->api(), sky, "showmyskyRadiance(d)", 1, 1);
+    Host skylight(context->api(), sky, "showmyskySkyIlluminance()", 1, 1);
+    for (const double apartDeg : {0., 0.1}) {
+        auto settings = scene(1500, 50);
+        settings.eclipse = EclipseMode::on;
+        settings.moon = {settings.sun.azimuth, settings.sun.zenithAngle - apartDeg * degree, 371925e3};
+        sky.setSettings(settings);
+        for (const auto& [zenithDeg, azimuthDeg] : {std::pair{10., 200.}, {50., 5.}, {88., 90.}, {93., 20.}, {140., 300.}}) {
+            CAPTURE(apartDeg, zenithDeg, azimuthDeg);
+            const auto direction = directionOf(azimuthDeg * degree, zenithDeg * degree);
+            const double expected = luminanceOf(sky.spectralRadiance(direction), sky.wavelengths());
+            CHECK(static_cast<double>(radiance.ask(sky, direction, 0).y) == Approx(expected).epsilon(0.02));
+        }
+        constexpr int width = 256, height = 128;
+        sky.draw(panorama(), width, height);
+        const auto picture = sky.readLuminance();
+        double expected = 0;
+        for (int row = height / 2; row < height; ++row) {
+            const double elevation = 180 * degree * ((row + 0.5) / height - 0.5);
+            for (int x = 0; x < width; ++x)
+                expected += static_cast<double>(picture[static_cast<std::size_t>(row * width + x)].y) * std::sin(elevation) *
+                            std::cos(elevation) * (180 * degree / height) * (360 * degree / width);
+        }
+        CHECK(static_cast<double>(skylight.draw(sky)[0].y) == Approx(expected).epsilon(0.01));
+    }
 }
 
 TEST_CASE("shader functions: Sun and sky light a surface as photometry says", "[gl]")
