@@ -44,19 +44,31 @@ std::string HostFunctions::source(int scatterers)
     return gl::expandShader(sky::shaders::source, "render/host_functions.glsl", {}, Painter::lightDefines(scatterers), {}).text;
 }
 
-void HostFunctions::set(const Aerial& aerial, const sky::physics::Planet& planet, double altitude, const Illuminance& light)
+bool HostFunctions::asksForDistances(unsigned program) const
 {
-    std::vector<float> values;
-    values.reserve(4 * aerial.texels().size());
-    for (const Texel& texel : aerial.texels())
-        values.insert(values.end(), texel.begin(), texel.end());
-    if (aerial_.size().width != aerial.columns())
-        aerial_ =
-            gl::Texture3D(api_, "aerial perspective", aerial_.format(), aerial.columns(), aerial_.size().height, aerial_.size().depth);
-    aerial_.upload(values);
-    uniforms_["aerialPlanet"] = std::array<float, 2>{static_cast<float>(planet.radius), static_cast<float>(planet.topOfAtmosphere)};
-    uniforms_["aerialAltitude"] = static_cast<float>(altitude);
-    uniforms_["aerialSize"] = std::array<float, 3>{static_cast<float>(aerial.columns()), Aerial::halfViews, Aerial::distances};
+    GLint linked = GL_FALSE;
+    if (api_->IsProgram(program))
+        api_->GetProgramiv(program, GL_LINK_STATUS, &linked);
+    if (!linked)
+        throw Error(ErrorKind::settings, "There is no linked OpenGL program of number " + std::to_string(program) + ".");
+    return api_->GetUniformLocation(program, hostName("aerial").c_str()) >= 0; // drivers drop what a host doesn't use
+}
+
+void HostFunctions::set(const Aerial* aerial, const sky::physics::Planet& planet, double altitude, const Illuminance& light)
+{
+    if (aerial) {
+        std::vector<float> values;
+        values.reserve(4 * aerial->texels().size());
+        for (const Texel& texel : aerial->texels())
+            values.insert(values.end(), texel.begin(), texel.end());
+        if (aerial_.size().width != aerial->columns())
+            aerial_ =
+                gl::Texture3D(api_, "aerial perspective", aerial_.format(), aerial->columns(), aerial_.size().height, aerial_.size().depth);
+        aerial_.upload(values);
+        uniforms_["aerialPlanet"] = std::array<float, 2>{static_cast<float>(planet.radius), static_cast<float>(planet.topOfAtmosphere)};
+        uniforms_["aerialAltitude"] = static_cast<float>(altitude);
+        uniforms_["aerialSize"] = std::array<float, 3>{static_cast<float>(aerial->columns()), Aerial::halfViews, Aerial::distances};
+    }
     uniforms_["horizontalSunlight"] = light.sunHorizontal;
     uniforms_["facingSunlight"] = light.sunFacing;
     uniforms_["horizontalSkylight"] = light.skyHorizontal;
@@ -64,11 +76,6 @@ void HostFunctions::set(const Aerial& aerial, const sky::physics::Planet& planet
 
 void HostFunctions::bind(unsigned program, unsigned firstUnit, const Painter& painter) const
 {
-    GLint linked = GL_FALSE;
-    if (api_->IsProgram(program))
-        api_->GetProgramiv(program, GL_LINK_STATUS, &linked);
-    if (!linked)
-        throw Error(ErrorKind::settings, "There is no linked OpenGL program of number " + std::to_string(program) + ".");
     std::vector<std::pair<const char*, const gl::Texture*>> textures{
         {"skyTables", &painter.skyTables()}, {"phases", &painter.phases()}, {"aerial", &aerial_}};
     if (painter.hasCities())
@@ -86,7 +93,7 @@ void HostFunctions::bind(unsigned program, unsigned firstUnit, const Painter& pa
     const auto locate = [&](const std::string& name) { return api_->GetUniformLocation(program, hostName(name).c_str()); };
     for (const Uniforms* uniforms : {&painter.lightUniforms(), &uniforms_})
         for (const auto& [name, value] : *uniforms)
-            if (const GLint at = locate(name); at >= 0) // drivers drop what a host doesn't use
+            if (const GLint at = locate(name); at >= 0)
                 setUniform(api_, at, value);
     unsigned unit = firstUnit;
     for (const auto& [name, texture] : textures) {

@@ -15,10 +15,14 @@ public:
     /// The functions, without #version.
     static std::string source(int scatterers);
 
+    /// True if a host's program asks for light or transmittance up to a point: without, none is computed.
+    ///   throws  Error: it isn't a linked program
+    bool asksForDistances(unsigned program) const;
     /// What stays the same until the scene changes.
-    void set(const Aerial& aerial, const sky::physics::Planet& planet, double altitude, const Illuminance& light);
+    ///   aerial  null as long as no program asks for distances
+    void set(const Aerial* aerial, const sky::physics::Planet& planet, double altitude, const Illuminance& light);
     /// Binds three textures, five where there are cities, from unit `firstUnit` on, and sets uniforms of a host's program.
-    ///   throws  Error: it isn't a linked program, or there are too few units
+    ///   throws  Error: there are too few units
     void bind(unsigned program, unsigned firstUnit, const Painter& painter) const;
 
     std::size_t textureBytes() const;

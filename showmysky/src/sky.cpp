@@ -96,9 +96,10 @@ struct Sky::Inside {
     {
         if (hostVersion == scene.version())
             return true;
-        if (!scene.aerialStep())
+        if (distancesAsked && !scene.aerialStep())
             return false;
-        hostFunctions->set(scene.aerial(), scene.atmosphere().planet(), scene.settings().altitude, scene.illuminance());
+        hostFunctions->set(distancesAsked ? &scene.aerial() : nullptr, scene.atmosphere().planet(), scene.settings().altitude,
+                           scene.illuminance());
         hostVersion = scene.version();
         return true;
     }
@@ -120,6 +121,7 @@ struct Sky::Inside {
     Scene scene;
     std::unique_ptr<Painter> painter;
     std::unique_ptr<HostFunctions> hostFunctions; ///< once a host has bound them
+    bool distancesAsked = false;                  ///< by one of its programs
     int hostVersion = -1;                         ///< of the scene that they have
     Drawn drawn;
     int nextStep = 0;
@@ -365,6 +367,10 @@ void Sky::bindShaderFunctions(unsigned program, unsigned firstTextureUnit)
             if (!in.hostFunctions)
                 in.hostFunctions =
                     std::make_unique<HostFunctions>(in.context.api(), in.scene.atmosphere().scatterers(), in.painter->skyTables().format());
+            if (in.hostFunctions->asksForDistances(program) && !in.distancesAsked) {
+                in.distancesAsked = true;
+                in.hostVersion = -1;
+            }
             while (!in.prepareHostFunctions()) {
             }
         }

@@ -446,6 +446,32 @@ TEST_CASE("shader functions: in an eclipse sky and illuminance are those of sing
     }
 }
 
+TEST_CASE("shader functions: light is followed to distances once a program asks for it", "[gl]")
+{
+    const auto context = gl::testing::context(desktop());
+    if (!context)
+        return;
+    Sky sky = loadedSky(*context);
+    Host far(context->api(), sky, "showmyskyRadiance(d) + showmyskySkyIlluminance()", 8, 8);
+    Host near(context->api(), sky, "showmyskyRadianceTo(d, 5e3)", 8, 8);
+    const auto follows = [&](double zenith) {
+        sky.setSettings(scene(0, zenith));
+        bool result = false;
+        for (Progress progress = sky.prepareStep(); !progress.done; progress = sky.prepareStep())
+            result = result || progress.activity.find("distances") != std::string::npos;
+        return result;
+    };
+    const auto before = far.draw(sky);
+    CHECK_FALSE(follows(60));
+    far.draw(sky);
+    CHECK(near.draw(sky)[40].y > 0);
+    CHECK(follows(70));
+    const auto later = near.draw(sky)[40].y;
+    sky.setSettings(scene(0, 60));
+    CHECK(near.draw(sky)[40].y != later);
+    CHECK(far.draw(sky)[40].y != before[40].y);
+}
+
 TEST_CASE("shader functions: Sun and sky light a surface as photometry says", "[gl]")
 {
     const auto context = gl::testing::context(desktop());

@@ -156,7 +156,8 @@ public:
     std::string shaderFunctions() const;
     /// Gives a program that contains them what they need of the present scene: sets its uniforms, and leaves textures bound
     /// to three units from `firstTextureUnit` on, five where the scene has cities, without sampler objects. To be repeated after setSettings(), and where the
-    /// host has bound other textures there. Computes what is missing; the first call makes prepareStep() do so from then on.
+    /// host has bound other textures there. Computes what is missing; the first call makes prepareStep() do so from then on, the first
+    /// program that asks for light up to a point adds that.
     ///   throws  settings: `program` isn't linked, or the context has fewer units
     void bindShaderFunctions(unsigned program, unsigned firstTextureUnit);
 
