@@ -5,6 +5,7 @@
 // The field of a city is symmetric about the axis from the planet's centre through the disc's: it depends on the altitude and on the
 // angle between the vertical and that axis, as the Sun's field does on altitude and height of the Sun. So it takes the same moments.
 
+#include "base/stop.hpp"
 #include "physics/optics.hpp"
 #include "physics/profile.hpp"
 #include "physics/ray.hpp"
@@ -92,7 +93,8 @@ class CityField
 {
 public:
     ///   discRadius  angle at the planet's centre
-    CityField(const CityAir& air, double discRadius);
+    ///   stop        asked before the rays of every point of the grid in every event; throws base::Stopped
+    CityField(const CityAir& air, double discRadius, const base::StopRequest& stop = {});
 
     double discRadius() const { return discRadius_; }
     /// Light that has been scattered or reflected before, scattered into a direction; [stride] of moments, then the sum over l, m is the

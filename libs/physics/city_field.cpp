@@ -223,7 +223,7 @@ void CityField::groundIrradiance(const double fromCity, float* const result) con
         result[w] = base::exp2Lane((1 - x) * ground_[j * stride_ + w] + x * ground_[(j + 1) * stride_ + w]);
 }
 
-CityField::CityField(const CityAir& air, const double discRadius)
+CityField::CityField(const CityAir& air, const double discRadius, const base::StopRequest& stop)
     : air_(air), discRadius_(discRadius), stride_(air.stride()), harmonics_(harmonicCount(air.optics().degree)), angles_(anglesOfField)
 {
     const auto& profile = air.profile();
@@ -262,9 +262,11 @@ CityField::CityField(const CityAir& air, const double discRadius)
         directions.push_back(directionsAt(p, h, settings));
     base::parallel([&](int thread, int threads) {
         RayTracer tracer(profile, optics, 2);
-        for (int a = thread; a < levels; a += threads)
+        for (int a = thread; a < levels; a += threads) {
+            base::stopIfAsked(stop);
             for (size_t d = 0; d < directions[a].mu.size(); ++d)
                 columns[a].emplace_back(tracer, altitudes_[a], directions[a].mu[d], directions[a].hitsGround[d], fieldFarNodes);
+        }
     });
     const auto azimuths = gaussLegendre(azimuthsOfField, 0, 1); // phi = pi x^2: close where the city is
 
@@ -286,6 +288,7 @@ CityField::CityField(const CityAir& air, const double discRadius)
             std::vector<float> radiance(stride_), ground(stride_);
             std::vector<double> factors(harmonics_);
             for (size_t point = thread; point < points; point += threads) {
+                base::stopIfAsked(stop);
                 const int a = static_cast<int>(point) / angles_, j = static_cast<int>(point) % angles_;
                 const double angle = angleAt(j);
                 float* const sums = &last[point * step];

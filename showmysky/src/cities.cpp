@@ -70,17 +70,17 @@ std::vector<double> Cities::spectrumOf(const City& city) const
     return spectrum;
 }
 
-CityLight Cities::light(const std::vector<City>& cities, double altitude) const
+CityLight Cities::light(const std::vector<City>& cities, double altitude, const sky::base::StopRequest& stop) const
 {
     CityLight result{altitude, cities, ViewTable(drawnHalfViews, cityAzimuths), {}};
     for (const City& city : cities) {
-        addTo(result.air, city, altitude);
+        addTo(result.air, city, altitude, stop);
         result.discs.push_back(drawn(city, altitude));
     }
     return result;
 }
 
-std::shared_ptr<const physics::CityField> Cities::field(double radius) const
+std::shared_ptr<const physics::CityField> Cities::field(double radius, const sky::base::StopRequest& stop) const
 {
     const std::lock_guard lock(mutex_); // who asks for the same waits, who asks for others too: computing takes all cores anyway
     const double angle = radius / air_.profile().planet().radius;
@@ -89,9 +89,10 @@ std::shared_ptr<const physics::CityField> Cities::field(double radius) const
         std::rotate(found, found + 1, fields_.end());
         return fields_.back();
     }
+    auto made = std::make_shared<const physics::CityField>(air_, angle, stop);
     if (fields_.size() == fieldsKept)
         fields_.erase(fields_.begin());
-    fields_.push_back(std::make_shared<physics::CityField>(air_, angle));
+    fields_.push_back(std::move(made));
     return fields_.back();
 }
 
@@ -127,10 +128,10 @@ void Cities::addRadiance(const std::vector<City>& cities, double altitude, const
     }
 }
 
-void Cities::addTo(ViewTable& table, const City& city, double altitude) const
+void Cities::addTo(ViewTable& table, const City& city, double altitude, const sky::base::StopRequest& stop) const
 {
     const auto& planet = air_.profile().planet();
-    const auto higher = field(city.radius);
+    const auto higher = field(city.radius, stop);
     const auto spectrum = spectrumOf(city);
     const double angle = city.distance / planet.radius;
     const bool outside = altitude > planet.topOfAtmosphere;
@@ -140,6 +141,7 @@ void Cities::addTo(ViewTable& table, const City& city, double altitude) const
         physics::RayTracer tracer(air_.profile(), air_.optics(), cityCells);
         std::vector<double> light(weights_.size());
         for (int v = thread; v < 2 * halfViews; v += threads) {
+            sky::base::stopIfAsked(stop);
             const double mu = sines[static_cast<std::size_t>(v)], flat = std::sqrt(std::max(0., 1 - mu * mu));
             const auto entry = enterAir(planet, altitude, mu);
             if (!entry)

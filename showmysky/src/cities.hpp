@@ -41,16 +41,17 @@ public:
     /// Empty if these cities can be drawn, otherwise a sentence that says why not.
     std::string whyNot(const std::vector<City>& cities) const;
     /// What a camera sees of cities: some seconds for the first of a radius, some tenths for others.
-    CityLight light(const std::vector<City>& cities, double altitude) const;
+    ///   stop  asked every few milliseconds; throws sky::base::Stopped
+    CityLight light(const std::vector<City>& cities, double altitude, const sky::base::StopRequest& stop = {}) const;
 
     /// Radiance in a direction, the discs in direct view included, W m^-2 sr^-1 nm^-1: added to `result`.
     void addRadiance(const std::vector<City>& cities, double altitude, const std::array<double, 3>& direction, double* result) const;
 
 private:
     /// Adds the air's part of one city to a table of views and cityAzimuths; also the ground, as far as the air lights it.
-    void addTo(ViewTable& table, const City& city, double altitude) const;
+    void addTo(ViewTable& table, const City& city, double altitude, const sky::base::StopRequest& stop) const;
     DrawnCity drawn(const City& city, double altitude) const;
-    std::shared_ptr<const sky::physics::CityField> field(double radius) const;
+    std::shared_ptr<const sky::physics::CityField> field(double radius, const sky::base::StopRequest& stop = {}) const;
     std::vector<double> spectrumOf(const City& city) const;
     Texel luminanceOf(const double* radiance, const std::vector<double>& spectrum) const;
 

@@ -361,8 +361,10 @@ bool Scene::lightCities()
     if (cityView_.altitude == settings_.altitude && cityView_.cities == settings_.cities)
         return false;
     if (!citiesLit_.valid())
-        citiesLit_ = std::async(std::launch::async, [&lamps = std::as_const(*cities_), cities = settings_.cities,
-                                                     altitude = settings_.altitude] { return lamps.light(cities, altitude); });
+        citiesLit_ = std::async(std::launch::async,
+                                [this, &lamps = std::as_const(*cities_), cities = settings_.cities, altitude = settings_.altitude] {
+                                    return lamps.light(cities, altitude, [this] { return ending_.load(); });
+                                });
     if (citiesLit_.wait_for(cityPatience) == std::future_status::ready)
         cityView_ = citiesLit_.get(); // of settings that may have changed since: then the next step begins with the new ones
     return true;

@@ -10,6 +10,7 @@
 #include "painter.hpp"
 #include "showmysky/sky.hpp"
 #include "texture_lookup.hpp"
+#include <atomic>
 #include <future>
 #include <optional>
 
@@ -19,6 +20,7 @@ class Scene
 {
 public:
     explicit Scene(std::string directory) : directory_(std::move(directory)) {}
+    ~Scene() { ending_ = true; }
 
     // Loading, in this order.
     static constexpr int loadSteps = 4;
@@ -93,6 +95,7 @@ private:
     bool ordinaryReady_ = false;
     bool ready_ = false;
     int version_ = 0;
+    std::atomic<bool> ending_ = false; ///< calls off what the background does
     std::future<CityLight> citiesLit_; ///< in the background; last, so that it ends before what it reads
 };
 

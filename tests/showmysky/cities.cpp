@@ -3,6 +3,7 @@
 #include "sky_for_tests.hpp"
 #include <catch2/catch.hpp>
 #include <chrono>
+#include <ctime>
 
 using namespace showmysky;
 using namespace showmysky::testing;
@@ -206,4 +207,24 @@ TEST_CASE("a city of a new radius is lit while the scene before goes on being dr
     CHECK_FALSE(other.prepareStep().done);
     other.setSettings(scene(0, 60));
     CHECK(pictureOf(other, camera).at(64 * 20).y > 0);
+}
+
+TEST_CASE("a Sky that is destroyed calls off the light of its cities", "[gl]")
+{
+    auto context = sky::gl::testing::context(desktop());
+    if (!context)
+        return;
+    const auto works = [&](bool toTheEnd) { // processor time of all threads
+        auto sky = std::make_unique<Sky>(loadedSky(*context));
+        sky->setSettings(night(0, {{20e3, 1, 3e3, 2, {}}}));
+        const Progress first = sky->prepareStep();
+        REQUIRE(first.activity == "Lighting cities");
+        const auto before = std::clock();
+        while (toTheEnd && sky->prepareStep().activity == "Lighting cities") {
+        }
+        sky.reset();
+        return static_cast<double>(std::clock() - before);
+    };
+    const double all = works(true);
+    CHECK(works(false) < 0.1 * all);
 }
