@@ -19,9 +19,6 @@ constexpr double levelOpticalDepth = 0.3;
 /// So many times more of them in an interval with an edge.
 constexpr double edgeCrowding = 1.25;
 
-/// Angle over which the Sun goes out, dip of the horizon and diameter of the disc, that the least scale of the axis resolves: the Earth's.
-constexpr double usualSunset = 0.15;
-
 /// Beyond, days would be coarse for the sake of a sunset that lasts seconds.
 constexpr double mostSunScale = 8;
 
@@ -49,7 +46,8 @@ MomentGrid::MomentGrid(const Profile& profile, const std::vector<double>& larges
     // Optical depth from the ground up, at the shells of the profile, and levels at the feet of jumps.
     const auto& shells = profile.shells();
     const int species = profile.speciesCount();
-    std::vector<double> depth(shells.size(), 0.), n(species);
+    const auto depth = depthBelowShells(profile, largestExtinction);
+    std::vector<double> n(species);
     const auto extinctionAt = [&](int interval, double altitude) {
         profile.densities(interval, altitude, n.data());
         double beta = 0;
@@ -57,19 +55,9 @@ MomentGrid::MomentGrid(const Profile& profile, const std::vector<double>& larges
             beta += n[s] * largestExtinction[s];
         return beta;
     };
-    // Shells may be scale heights thick.
-    const auto depthInShell = [&](int k, double altitude) {
-        const double thickness = altitude - shells[k];
-        double mean = 0;
-        for (int q = 0; q < 8; ++q)
-            mean += extinctionAt(k, shells[k] + thickness * (q + 0.5) / 8) / 8;
-        return mean * thickness;
-    };
-    for (size_t k = 0; k + 1 < shells.size(); ++k)
-        depth[k + 1] = depth[k] + depthInShell(static_cast<int>(k), shells[k + 1]);
     const auto depthAt = [&](double altitude) {
         const int k = profile.intervalAt(altitude);
-        return depth[k] + depthInShell(k, altitude);
+        return depth[k] + depthInShell(profile, largestExtinction, k, altitude);
     };
     for (size_t k = 1; k + 1 < shells.size(); ++k) {
         const double below = extinctionAt(static_cast<int>(k) - 1, shells[k]), above = extinctionAt(static_cast<int>(k), shells[k]);
@@ -104,13 +92,7 @@ MomentGrid::MomentGrid(const Profile& profile, const std::vector<double>& larges
     altitudes_.back() = top;
 
     // Where the air above a millionth of the column ends, three horizon dips below the horizontal is night everywhere.
-    double effectiveTop = top;
-    for (size_t k = 0; k < shells.size(); ++k)
-        if (depth.back() - depth[k] <= 1e-5 * depth.back()) {
-            effectiveTop = std::max(shells[k], 1e-3 * top);
-            break;
-        }
-    const double dip = -horizonElevation(planet_, effectiveTop);
+    const double dip = dipOfAir(profile, largestExtinction);
     lowest_ = std::max(-pi / 2, -3.2 * dip - std::max(0.02, 2 * sunRadius));
     *this = MomentGrid(planet_, altitudes_, lowest_, sunCount_, sunScaleFor(dip + 2 * sunRadius));
 }

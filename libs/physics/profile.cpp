@@ -112,4 +112,37 @@ void Profile::densities(const int interval, const double altitude, double* const
     }
 }
 
+double depthInShell(const Profile& profile, const std::vector<double>& crossSections, const int interval, const double altitude)
+{
+    constexpr int points = 8; // shells may be scale heights thick
+    const double bottom = profile.shells()[interval], thickness = altitude - bottom;
+    std::vector<double> n(crossSections.size());
+    double mean = 0;
+    for (int q = 0; q < points; ++q) {
+        profile.densities(interval, bottom + thickness * (q + 0.5) / points, n.data());
+        for (size_t s = 0; s < n.size(); ++s)
+            mean += n[s] * crossSections[s] / points;
+    }
+    return mean * thickness;
+}
+
+std::vector<double> depthBelowShells(const Profile& profile, const std::vector<double>& crossSections)
+{
+    const auto& shells = profile.shells();
+    std::vector<double> depth(shells.size(), 0.);
+    for (size_t k = 0; k + 1 < shells.size(); ++k)
+        depth[k + 1] = depth[k] + depthInShell(profile, crossSections, static_cast<int>(k), shells[k + 1]);
+    return depth;
+}
+
+double dipOfAir(const Profile& profile, const std::vector<double>& crossSections)
+{
+    const auto depth = depthBelowShells(profile, crossSections);
+    const auto& planet = profile.planet();
+    size_t k = 0;
+    while (k + 1 < depth.size() && depth.back() - depth[k] > 1e-5 * depth.back())
+        ++k;
+    return -horizonElevation(planet, std::max(profile.shells()[k], 1e-3 * planet.topOfAtmosphere));
+}
+
 } // namespace sky::physics

@@ -40,4 +40,17 @@ private:
     std::vector<double> steepness_;
 };
 
+/// Vertical optical depth of the air below each shell, [shells].
+///   crossSections  [species], m^2
+std::vector<double> depthBelowShells(const Profile& profile, const std::vector<double>& crossSections);
+/// Vertical optical depth between the shell `interval` and an altitude over it, below the next.
+double depthInShell(const Profile& profile, const std::vector<double>& crossSections, int interval, double altitude);
+
+/// How far below the horizontal the horizon is seen, rad, from the shell above which less than a hundred-thousandth of the optical depth is left.
+double dipOfAir(const Profile& profile, const std::vector<double>& crossSections);
+
+/// The angle over which the Sun goes out in the usual air, dip of the horizon and diameter of the disc, rad: the Earth's. Axes over the Sun's elevation
+/// are made for it, and narrower in proportion where it is less.
+constexpr double usualSunset = 0.15;
+
 } // namespace sky::physics

@@ -104,9 +104,9 @@ RayCells RayTracer::cells(const double altitude, const double mu, const bool hit
     return {altitude, mu, hits, bounds_, altitudes_, columns_, centres_};
 }
 
-void RayTracer::columns(const double altitude, const double mu, double* const result)
+void RayTracer::columns(const double altitude, const double mu, double* const result, const double deepest)
 {
-    walk(altitude, mu, false);
+    walk(altitude, mu, false, deepest);
     const int species = profile_.speciesCount();
     std::fill(result, result + species, 0.);
     for (size_t i = 0; i < columns_.size(); ++i)

@@ -65,8 +65,9 @@ public:
     /// The cells of the ray themselves, up to where all wavelengths have passed an optical depth of `deepest`.
     RayCells cells(double altitude, double mu, bool hitsGround, double deepest);
 
-    /// Column of each species from `altitude` to space, [species], m^-2; the ray must miss the ground.
-    void columns(double altitude, double mu, double* result);
+    /// Column of each species from `altitude` to space, [species], m^-2; the ray must miss the ground. Less where all wavelengths have passed an
+    /// optical depth of `deepest` before.
+    void columns(double altitude, double mu, double* result, double deepest = std::numeric_limits<double>::infinity());
 
 private:
     void walk(double altitude, double mu, bool hitsGround, double deepest = std::numeric_limits<double>::infinity());

@@ -19,6 +19,25 @@ using base::pi;
 constexpr double rowOpticalDepth = 0.1, rowCurvature = 1e-3;
 constexpr int mostParts = 16;
 
+/// Optical depth behind which nothing is followed: what is left could not be told from darkness in single precision.
+constexpr double opaque = 200;
+
+/// Scale of the elevation axis for the usual sunset, rad.
+constexpr double usualScale = 0.03;
+
+double axisLength(double scale, double range) { return std::asinh(range / scale); }
+
+/// In proportion to the angle over which the Sun goes out.
+double scaleFor(const Profile& profile, const Optics& optics, double sunRadius)
+{
+    std::vector<double> largest;
+    for (int s = 0; s < optics.species; ++s) {
+        const auto begin = optics.extinction.begin() + s * optics.wavelengths;
+        largest.push_back(*std::max_element(begin, begin + optics.wavelengths));
+    }
+    return usualScale * std::min(1., (dipOfAir(profile, largest) + 2 * sunRadius) / usualSunset);
+}
+
 /// Largest optical depth of the air between two altitudes, of all wavelengths.
 double opticalDepthBetween(const Profile& profile, const Optics& optics, double from, double to)
 {
@@ -67,8 +86,10 @@ std::vector<double> tableAltitudes(const Profile& profile, const Optics& optics,
 
 SunTable::SunTable(const Profile& profile, const Optics& optics, const double sunAngularRadius, const int altitudeCount,
                    const int elevations, const int threadCount)
-    : planet_(profile.planet()), sunRadius_(sunAngularRadius), elevations_(elevations), wavelengths_(optics.wavelengths),
-      altitudes_(tableAltitudes(profile, optics, altitudeCount)), depth_(altitudes_.size() * elevations * optics.wavelengths)
+    : planet_(profile.planet()), sunRadius_(sunAngularRadius), scale_(scaleFor(profile, optics, sunAngularRadius)),
+      elevations_(static_cast<int>(std::lround(elevations * axisLength(scale_, pi / 2) / axisLength(usualScale, pi / 2)))),
+      wavelengths_(optics.wavelengths), altitudes_(tableAltitudes(profile, optics, altitudeCount)),
+      depth_(altitudes_.size() * elevations_ * optics.wavelengths)
 {
     for (const double h : altitudes_)
         measures_.push_back(horizonDistance(planet_, h));
@@ -78,7 +99,7 @@ SunTable::SunTable(const Profile& profile, const Optics& optics, const double su
         const double h = altitudes_[row], horizon = horizonElevation(planet_, h);
         const double range = pi / 2 - horizon + sunRadius_;
         for (int k = 0; k < elevations_; ++k) {
-            const double x = elevationScale * std::sinh(std::asinh(range / elevationScale) * k / (elevations_ - 1));
+            const double x = scale_ * std::sinh(axisLength(scale_, range) * k / (elevations_ - 1));
             const double above = x - sunRadius_; // of the Sun's centre above the horizon
             double* result = &depth_[(row * elevations_ + k) * wavelengths_];
             // Across the disc the transmittance is exponential near the horizon, linear high above it: from every point of
@@ -95,15 +116,16 @@ SunTable::SunTable(const Profile& profile, const Optics& optics, const double su
                 const double offset = fine ? std::cos(t) : centre ? 0. : q == 0 ? 0.5 : -0.5;
                 const double e = std::max(0., above + sunRadius_ * offset);
                 const double weight = !fine ? 1 : disc.weights[q] * std::max(std::sin(t) * std::sin(t), 1e-12);
-                tracer.columns(h, std::sin(std::min(pi / 2, e + horizon)), columns.data());
+                tracer.columns(h, std::sin(std::min(pi / 2, e + horizon)), columns.data(), opaque);
                 for (int w = 0; w < wavelengths_; ++w) {
                     double tau = 0;
                     for (int s = 0; s < optics.species; ++s)
                         tau += columns[s] * optics.extinction[s * wavelengths_ + w];
+                    tau = std::min(tau, opaque);
                     // A sum of exponentials without underflow needs a common offset: the first ray's depth.
                     if (q == 0)
                         result[w] = tau;
-                    mean[w] += weight * std::exp(std::min(result[w] - tau, 600.));
+                    mean[w] += weight * std::exp(result[w] - tau);
                 }
                 weights += weight;
             }
@@ -135,7 +157,7 @@ double SunTable::axis(const double elevation, const double horizon) const
 {
     const double range = pi / 2 - horizon + sunRadius_;
     const double x = std::max(0., elevation - horizon + sunRadius_);
-    return std::min(1., std::asinh(x / elevationScale) / std::asinh(range / elevationScale));
+    return std::min(1., std::asinh(x / scale_) / axisLength(scale_, range));
 }
 
 void SunTable::transmittance(const double altitude, const double muSun, double* const result) const

@@ -15,13 +15,15 @@ class SunTable
 {
 public:
     /// Axis in the elevation x above the lowest Sun that still shows: u = asinh(x / scale) / asinh(range / scale).
-    static constexpr double elevationScale = 0.03; ///< rad
-
+    ///   elevations  on a planet with the Earth's sunset (physics::usualSunset); where the Sun goes out over a smaller angle the scale
+    ///               is smaller in proportion, and there are so many more elevations that steps elsewhere stay as long
     SunTable(const Profile& profile, const Optics& optics, double sunAngularRadius, int altitudes = 56, int elevations = 112,
              int threads = 2);
 
     const std::vector<double>& altitudes() const { return altitudes_; }
     int elevationCount() const { return elevations_; }
+    /// Scale of the axis, rad.
+    double elevationScale() const { return scale_; }
     /// [altitude][elevation][wavelength]
     const std::vector<double>& opticalDepths() const { return depth_; }
 
@@ -45,6 +47,7 @@ public:
 private:
     Planet planet_;
     double sunRadius_;
+    double scale_;
     int elevations_;
     int wavelengths_;
     std::vector<double> altitudes_, measures_; // sqrt(r^2 - R^2) there

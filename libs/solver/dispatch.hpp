@@ -35,6 +35,7 @@ inline void bindSamples(gl::Program& program, const SunSamples& samples, Strides
 inline void bindScatterers(gl::Program& program, const Scene& scene, const std::vector<bool>& withPhase, int texels)
 {
     program.set("elevations", scene.sun.elevationCount());
+    program.set("elevationScale", static_cast<float>(scene.sun.elevationScale()));
     program.set("sunRadius", static_cast<float>(scene.medium.sunAngularRadius));
     program.set("angles", static_cast<int>(scene.medium.scatteringAngles.size()));
     for (std::size_t i = 0; i < withPhase.size(); ++i) {

@@ -76,8 +76,7 @@ DirectRayData::DirectRayData(const Scene& scene, const std::vector<RayStart>& st
             const double horizon = physics::horizonElevation(scene.profile.planet(), h);
             const auto [row, fraction] = scene.sun.row(h);
             to[4] = static_cast<float>(horizon);
-            to[5] =
-                static_cast<float>(1 / std::asinh((pi / 2 - horizon + scene.medium.sunAngularRadius) / physics::SunTable::elevationScale));
+            to[5] = static_cast<float>(1 / std::asinh((pi / 2 - horizon + scene.medium.sunAngularRadius) / scene.sun.elevationScale()));
             to[6] = static_cast<float>(row);
             to[7] = static_cast<float>(fraction);
         }

@@ -18,14 +18,12 @@ float visibleDiscFraction(float above, float radius)
     return above > 0.0 ? 1.0 - segment : segment;
 }
 
-// Scale of the elevation axis of the table of sunlight, rad; physics::SunTable::elevationScale.
-const float sunAxisScale = 0.03;
-
-// Position 0..1 on that axis. `inverseRange` is 1 / asinh(range / scale), range = pi/2 - horizon + radius.
-float sunAxis(float elevation, float horizon, float radius, float inverseRange)
+// Position 0..1 on the elevation axis of the table of sunlight. `scale` is physics::SunTable's (rad), `inverseRange` 1 / asinh(range / scale),
+// range = pi/2 - horizon + radius.
+float sunAxis(float elevation, float horizon, float radius, float scale, float inverseRange)
 {
     float x = max(0.0, elevation - horizon + radius);
-    return min(1.0, inverseSinh(x / sunAxisScale) * inverseRange);
+    return min(1.0, inverseSinh(x / scale) * inverseRange);
 }
 
 // Position on the elevation axis of the moments, 0..1: e = (pi/2) sinh(a v) / sinh a, v from its value for the lowest Sun to 1.

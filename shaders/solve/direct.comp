@@ -9,7 +9,7 @@ uniform samplerBuffer weights;   // [ray][node][scatterer][set]
 uniform samplerBuffer ground;    // [ray][set]: transmittance times albedo / pi
 uniform samplerBuffer phases;    // FIELD: [scatterer][l][set], (2l+1)/(4 pi) lambda_l; else [scatterer][angle][set]
 uniform int elevations, angles;
-uniform float sunRadius;
+uniform float sunRadius, elevationScale;
 #ifndef FIELD
 uniform int withPhase[SCATTERERS];
 uniform int resultOffsets[SCATTERERS]; // in texels of the result buffer
@@ -23,7 +23,7 @@ void sunlight(float elevation, vec4 place, out vec4 light[SETS])
         light[q] = vec4(0.0);
     if (visible <= 0.0)
         return;
-    float u = sunAxis(elevation, place.x, sunRadius, place.y) * float(elevations - 1);
+    float u = sunAxis(elevation, place.x, sunRadius, elevationScale, place.y) * float(elevations - 1);
     int k = min(int(u), elevations - 2);
     float x = u - float(k);
     int near = (int(place.z) * elevations + k) * totalSets, far = near + elevations * totalSets;

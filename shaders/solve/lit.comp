@@ -6,7 +6,7 @@
 uniform samplerBuffer lit;    // [ray of this dispatch][node][elevation][scatterer]: X / Y, log2 Y, Z / Y, scotopic / Y
 uniform samplerBuffer phases; // [scatterer][angle][set]: the first wavelength's are those of all
 uniform int elevations, angles;
-uniform float sunRadius;
+uniform float sunRadius, elevationScale;
 uniform int withPhase[SCATTERERS];
 uniform int resultOffsets[SCATTERERS]; // in texels of the result buffer
 
@@ -25,7 +25,7 @@ void main()
         float visible = visibleDiscFraction(elevation - place.x, sunRadius);
         if (visible <= 0.0)
             continue;
-        float u = sunAxis(elevation, place.x, sunRadius, place.y) * float(elevations - 1);
+        float u = sunAxis(elevation, place.x, sunRadius, elevationScale, place.y) * float(elevations - 1);
         int e = min(int(u), elevations - 2);
         int at = ((int(gl_GlobalInvocationID.y) * nodes + k) * elevations + e) * SCATTERERS;
         for (int i = 0; i < SCATTERERS; ++i) {

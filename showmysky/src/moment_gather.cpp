@@ -129,13 +129,10 @@ MomentGather::Node MomentGather::nodeOf(const physics::RayNodes::Node& node) con
     const double horizon = physics::horizonElevation(atmosphere_.planet(), node.altitude);
     const double range = pi / 2 - horizon + static_cast<double>(sunRadius_);
     result.horizon = static_cast<float>(horizon);
-    result.inverseRange = static_cast<float>(1 / std::asinh(range / physics::SunTable::elevationScale));
-    const auto& rows = sun_.altitudes();
-    const auto above = std::upper_bound(rows.begin(), rows.end(), node.altitude) - rows.begin();
-    const auto row = std::clamp<std::ptrdiff_t>(above, 1, static_cast<std::ptrdiff_t>(rows.size()) - 1) - 1;
-    const double low = rows[static_cast<std::size_t>(row)], high = rows[static_cast<std::size_t>(row) + 1];
-    result.sunRow = static_cast<int>(row);
-    result.sunRowShare = static_cast<float>(std::clamp((node.altitude - low) / (high - low), 0., 1.));
+    result.inverseRange = static_cast<float>(1 / std::asinh(range / sun_.elevationScale()));
+    const auto row = sun_.row(node.altitude);
+    result.sunRow = row.index;
+    result.sunRowShare = static_cast<float>(row.fraction);
     if (moments_)
         result.level = moments_->grid.altitudeStencil(node.altitude);
     return result;
@@ -236,7 +233,7 @@ void MomentGather::sunlight(const Node& node, float elevation, float* result) co
     }
     const int elevations = sun_.elevationCount();
     const float above = std::max(0.f, elevation - node.horizon + sunRadius_);
-    const float scale = static_cast<float>(physics::SunTable::elevationScale);
+    const float scale = static_cast<float>(sun_.elevationScale());
     const float u = std::min(1.f, std::asinh(above / scale) * node.inverseRange) * static_cast<float>(elevations - 1);
     const int k = std::min(static_cast<int>(u), elevations - 2);
     const float* near = &sunDepths_[static_cast<std::size_t>((node.sunRow * elevations + k) * stride_)];

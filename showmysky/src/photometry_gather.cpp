@@ -127,7 +127,7 @@ void FastGather::prepare(FastScratch& scratch) const
     for (const auto& node : ray.single.nodes) {
         const auto [row, y] = sun_.row(node.altitude);
         const double horizon = physics::horizonElevation(planet_, node.altitude), range = pi / 2 - horizon + sunRadius_;
-        scratch.sunRows.push_back({row, static_cast<float>(y), horizon, 1 / std::asinh(range / physics::SunTable::elevationScale)});
+        scratch.sunRows.push_back({row, static_cast<float>(y), horizon, 1 / std::asinh(range / sun_.elevationScale())});
     }
     if (!moments_)
         return;
@@ -178,7 +178,7 @@ void FastGather::gatherSingle(FastScratch& scratch, const double muSun, const do
             const auto& row = scratch.sunRows[from + j];
             const double elevation = std::asin(std::clamp(node.sunScale * muSun + node.nuScale * nu, -1., 1.));
             const double above = elevation - row.horizon;
-            const double x = std::max(0., above + sunRadius_) / physics::SunTable::elevationScale;
+            const double x = std::max(0., above + sunRadius_) / sun_.elevationScale();
             const double u = std::min(1., std::log(x + std::sqrt(x * x + 1)) * row.scale) * (elevations - 1);
             const int k = std::min(static_cast<int>(u), elevations - 2);
             const Block* low = &depth_[(static_cast<std::size_t>(row.row) * elevations + k) * blocks_];

@@ -87,6 +87,28 @@ TEST_CASE("direct sunlight: in haze, between the levels of the table")
         }
 }
 
+TEST_CASE("direct sunlight: a shell of some metres, where the Sun goes out within a tenth of a degree")
+{
+    // As thick as the Earth's in scale heights, 1500 times thinner in metres: all that the Earth shows in 8 degrees happens in 0.15.
+    auto medium = sky::test::exponentialAir(0.5);
+    for (double& altitude : medium.altitudes)
+        altitude *= 16 / medium.topOfAtmosphere;
+    for (double& density : medium.species[0].numberDensity)
+        density *= medium.topOfAtmosphere / 16;
+    medium.topOfAtmosphere = 16;
+    medium.sunAngularRadius = 0;
+    const Air air(medium);
+    RayTracer tracer(air.profile, air.optics);
+    for (const double h : {0., 1.5, 7.3, 15.3})
+        for (const double above : {1e-6, 1e-4, 3e-4, 7e-4, 1.1e-3, 2e-3, 4e-3, 0.02, 0.3}) {
+            const double e = horizonElevation(air.profile.planet(), h) + above;
+            double column = 0;
+            tracer.columns(h, std::sin(e), &column);
+            INFO("h " << h << " above the horizon " << above);
+            CHECK(air.tabulated(h, e, 0) == Approx(std::exp(-column * air.optics.extinction[0])).epsilon(0.03).margin(1e-4));
+        }
+}
+
 TEST_CASE("direct sunlight: none before the first edge, the whole disc after the last, never more than came in")
 {
     const Air& air = earth();

@@ -151,20 +151,19 @@ TEST_CASE("shader: axes of the tables over the Sun's elevation", "[gl]")
                   Approx(grid.sunPosition(double(moments[i][0])) / 32).margin(1e-6)); // a hundredth of a texel of 32 would be 3e-4
         }
     }
-    std::vector<Vec4> sun;
-    for (const double e : elevations)
-        for (const double horizon : {0., -0.0018, -0.19})
-            for (const double radius : {0., 0.0046}) {
-                const double range = std::asinh((pi / 2 - horizon + radius) / physics::SunTable::elevationScale);
-                sun.push_back(
-                    {static_cast<float>(e), static_cast<float>(horizon), static_cast<float>(radius), static_cast<float>(1 / range)});
-            }
-    const auto values = evaluate(context->api(), "lib/sun.glsl", "sunAxis(x.x, x.y, x.z, x.w)", sun);
-    for (std::size_t i = 0; i < sun.size(); ++i) {
-        const double x = std::max(0., double(sun[i][0]) - double(sun[i][1]) + double(sun[i][2]));
-        INFO("elevation " << sun[i][0] << " horizon " << sun[i][1]);
-        CHECK(double(values[i]) ==
-              Approx(std::min(1., std::asinh(x / physics::SunTable::elevationScale) * double(sun[i][3]))).margin(1e-6));
+    for (const double scale : {0.03, 3e-6}) {
+        std::vector<Vec4> sun;
+        for (const double e : elevations)
+            for (const double horizon : {0., -0.0018, -0.19})
+                for (const double radius : {0., 0.0046})
+                    sun.push_back({static_cast<float>(e), static_cast<float>(horizon), static_cast<float>(radius),
+                                   static_cast<float>(1 / std::asinh((pi / 2 - horizon + radius) / scale))});
+        const auto values = evaluate(context->api(), "lib/sun.glsl", "sunAxis(x.x, x.y, x.z, " + std::to_string(scale) + ", x.w)", sun);
+        for (std::size_t i = 0; i < sun.size(); ++i) {
+            const double x = std::max(0., double(sun[i][0]) - double(sun[i][1]) + double(sun[i][2]));
+            INFO("elevation " << sun[i][0] << " horizon " << sun[i][1] << " scale " << scale);
+            CHECK(double(values[i]) == Approx(std::min(1., std::asinh(x / scale) * double(sun[i][3]))).margin(1e-6));
+        }
     }
 }
 

@@ -15,25 +15,37 @@ import json
 import math
 import os
 import random
+import resource
+import signal
 import subprocess
 import sys
 import tempfile
-import time
 
 from judge import judge_energy, judge_methods, judge_steps, judge_values, special_places
 from scenes import scene
 
 
 REGIMES = ("day", "sunset", "twilight")
+TOO_LONG = 124
 ENOUGH = 12 # samples that say something about a regime
 
 
 def run(command, seconds):
+    """Exit code and what was said; TOO_LONG where it took more than `seconds` of a processor's time, or stood still for many times as long."""
     try:
-        done = subprocess.run(command, capture_output=True, text=True, timeout=seconds)
+        done = subprocess.run(command, capture_output=True, text=True, timeout=60 + 20 * seconds,
+                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (math.ceil(seconds), math.ceil(seconds) + 5)))
     except subprocess.TimeoutExpired:
-        return 124, f"not done after {seconds} s"
+        return 1, f"stands still: not done after {60 + 20 * seconds:g} s"
+    if done.returncode == -signal.SIGXCPU:
+        return TOO_LONG, f"not done after {seconds:g} s of processor time"
     return done.returncode, (done.stderr or done.stdout).strip()
+
+
+def processor_time():
+    """Of the programs run so far, s."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def judge_textures(viewer, model, facts, scratch, seconds):
@@ -74,8 +86,8 @@ def verify(options, model, scratch):
     """Complaints, and (regime, rms error, its uncertainty) against the Monte Carlo reference; (regime, None, None) where it could not tell."""
     report = os.path.join(scratch, "v.json")
     code, said = run([os.path.join(options.bin, "calcmysky"), "verify", model, "--seconds", str(options.verify), "--json", report, "-q"],
-                     options.seconds + 6 * options.verify)
-    if code == 124: # the judge's own time, not the model's
+                     options.seconds + 8 * options.verify)
+    if code == TOO_LONG: # the judge's own time, not the model's
         return [], [(regime, None, None) for regime in REGIMES]
     if code != 0:
         return [f"verify: exit code {code}: {said[-300:]}"], []
@@ -111,12 +123,12 @@ def campaign(options):
             atmo, model = os.path.join(folder, f"{number}.atmo"), os.path.join(folder, f"{number}")
             with open(atmo, "w") as file:
                 file.write(text)
-            start = time.time()
+            before = processor_time()
             command = [os.path.join(options.bin, "calcmysky"), atmo, "--out-dir", model, "--radiance", "--quality", options.quality, "-q"]
             code, said = run(command + (["--only", "moments"] if options.moments else [] if facts["eclipsed"] else ["--skip", "eclipsed"]), options.seconds)
-            took = time.time() - start
+            took = processor_time() - before
             complaints, verdict = [], "ok"
-            if code == 124 and options.moments:
+            if code == TOO_LONG and options.moments:
                 late += 1
                 verdict = f"not judged: it takes more than {options.seconds:g} s"
             elif code == 2 and said:
@@ -150,7 +162,7 @@ if __name__ == "__main__":
     parser.add_argument("--first", type=int, default=0, help="number of the first scene")
     parser.add_argument("--only", type=lambda text: [int(n) for n in text.split(",")], help="numbers of scenes in place of these: 3,14,15")
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--seconds", type=float, default=300, help="time for each program")
+    parser.add_argument("--seconds", type=float, default=300, help="processor time for each program")
     parser.add_argument("--quality", default="draft", help="of the models; the judge looks for what no quality excuses")
     parser.add_argument("--precision", type=float, default=0.1, help="largest difference between fast and precise answers")
     parser.add_argument("--moments", action="store_true", help="judge the moments alone, and leave out scenes that take longer than --seconds")
