@@ -155,7 +155,13 @@ Stencil MomentGrid::altitudeStencil(const double altitude) const
     return stencil;
 }
 
-Stencil MomentGrid::sunStencil(const double position) const { return uniformStencil(position, sunCount_); }
+Stencil MomentGrid::sunStencil(const double position) const
+{
+    auto [stencil, beyondZenith] = physics::sunStencil(position, sunCount_);
+    if (beyondZenith)
+        stencil.index[3] = sunCount_;
+    return stencil;
+}
 
 Stencil MomentGrid::sunStencil(const double position, const int chords) const
 {
@@ -182,6 +188,22 @@ double* Moments::at(const int altitude, const int sun)
     return &values[size_t(altitude * grid.sunCount() + sun) * harmonicCount(degree) * wavelengths];
 }
 
+std::vector<double> Moments::withSunBeyondZenith() const
+{
+    const int suns = grid.sunCount();
+    std::vector<double> result;
+    result.reserve(values.size() / static_cast<size_t>(suns) * static_cast<size_t>(suns + 1));
+    for (int a = 0; a < grid.altitudeCount(); ++a) {
+        result.insert(result.end(), at(a, 0), at(a, 0) + size_t(suns) * harmonicCount(degree) * wavelengths);
+        const double* mirrored = at(a, grid.sunAsHigh(suns));
+        for (int l = 0; l <= degree; ++l)
+            for (int m = 0; m <= l; ++m)
+                for (int w = 0; w < wavelengths; ++w)
+                    result.push_back((m % 2 ? -1 : 1) * *mirrored++);
+    }
+    return result;
+}
+
 void Moments::interpolate(const double altitude, const double muSun, double* const result) const
 {
     const Stencil a = grid.altitudeStencil(altitude);
@@ -190,12 +212,14 @@ void Moments::interpolate(const double altitude, const double muSun, double* con
     std::fill(result, result + count, 0.);
     for (int i = 0; i < 4; ++i)
         for (int j = 0; j < 4; ++j) {
-            const double weight = a.weight[i] * b.weight[j];
+            const double weight = a.weight[i] * b.weight[j], odd = b.index[j] < grid.sunCount() ? weight : -weight;
             if (weight == 0)
                 continue;
-            const double* source = at(a.index[i], b.index[j]);
-            for (int k = 0; k < count; ++k)
-                result[k] += weight * source[k];
+            const double* source = at(a.index[i], grid.sunAsHigh(b.index[j]));
+            for (int l = 0, k = 0; l <= degree; ++l)
+                for (int m = 0; m <= l; ++m)
+                    for (int w = 0; w < wavelengths; ++w, ++k)
+                        result[k] += (m % 2 ? odd : weight) * source[k];
         }
     for (int w = 0; w < wavelengths; ++w)
         result[w] = std::exp(result[w]);
@@ -210,7 +234,7 @@ void Moments::interpolateGround(const double muSun, double* const result) const
     for (int w = 0; w < wavelengths; ++w) {
         double logarithm = 0;
         for (int j = 0; j < 4; ++j)
-            logarithm += b.weight[j] * std::log(std::max(groundIrradiance[b.index[j] * wavelengths + w], darkness));
+            logarithm += b.weight[j] * std::log(std::max(groundIrradiance[grid.sunAsHigh(b.index[j]) * wavelengths + w], darkness));
         result[w] = std::exp(logarithm);
     }
 }

@@ -42,10 +42,13 @@ public:
 
     /// Cubic Hermite with slopes of parabolas through three levels, in the measure sqrt(r^2 - R^2).
     Stencil altitudeStencil(double altitude) const;
-    /// Catmull-Rom on the uniform axis v.
+    /// Catmull-Rom on the uniform axis v. The last of the four may be sunCount(): a Sun beyond the zenith, see
+    /// Moments::withSunBeyondZenith.
     Stencil sunStencil(double position) const;
     /// The same curve taken as `chords` straight lines between two Suns: how the GPU's sweeps read it. 0: the curve itself.
     Stencil sunStencil(double position, int chords) const;
+    /// The Sun of the grid that stands as high as one of a stencil.
+    int sunAsHigh(int index) const { return index < sunCount_ ? index : sunCount_ - 2; }
 
 private:
     Planet planet_;
@@ -71,6 +74,10 @@ struct Moments {
 
     const double* at(int altitude, int sun) const;
     double* at(int altitude, int sun);
+    /// The values with one more Sun, [altitude][sun, the last beyond the zenith][lm][wavelength]: the last but one of the grid, seen from
+    /// the other side. So orders m are even or odd in the Sun's way over the zenith, as cos m phi is in phi - pi/2, and no interpolation
+    /// has a kink there.
+    std::vector<double> withSunBeyondZenith() const;
     /// Moments at a place, [lm][wavelength], as I_lm.
     void interpolate(double altitude, double muSun, double* result) const;
     /// Diffuse irradiance of the ground, [wavelength].

@@ -332,9 +332,11 @@ void bakeIrradiance(const BakeJob& job, const RadiationField* field, bool perEve
                     double logarithm = 0;
                     for (int i = 0; i < 4; ++i)
                         for (int j = 0; j < 4; ++j)
-                            logarithm += a.weight[i] * b.weight[j] *
-                                         std::log(std::max(grid[(std::size_t(a.index[i]) * from.sunCount() + b.index[j]) * wavelengths + w],
-                                                           physics::darkness));
+                            logarithm +=
+                                a.weight[i] * b.weight[j] *
+                                std::log(std::max(
+                                    grid[(std::size_t(a.index[i]) * from.sunCount() + from.sunAsHigh(b.index[j])) * wavelengths + w],
+                                    physics::darkness));
                     values.push_back(static_cast<float>(std::exp(logarithm) * medium.solarIrradiance[w]));
                 }
             }

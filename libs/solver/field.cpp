@@ -138,24 +138,21 @@ void foldGround(const FoldField& field, const float* reflectance, int rows, floa
 FoldField::FoldField(const physics::Moments& m, const int refinement)
 {
     const auto& grid = m.grid;
-    suns = grid.sunCount();
+    suns = grid.sunCount() + 1;
     harmonics = physics::harmonicCount(m.degree);
     stride = (m.wavelengths + 3) / 4 * 4;
     sunAxis = {static_cast<float>(grid.sunScale()), static_cast<float>(std::sinh(grid.sunScale())), static_cast<float>(grid.vLowest())};
     moments.assign(std::size_t(grid.altitudeCount()) * suns * harmonics * stride, 0.F);
     ground.assign(std::size_t(suns) * stride, 0.F);
-    for (int a = 0; a < grid.altitudeCount(); ++a)
-        for (int sun = 0; sun < suns; ++sun) {
-            float* to = &moments[(std::size_t(a) * suns + sun) * harmonics * stride];
-            for (int lm = 0; lm < harmonics; ++lm)
-                for (int w = 0; w < m.wavelengths; ++w)
-                    to[lm * stride + w] = static_cast<float>(m.at(a, sun)[lm * m.wavelengths + w] * (lm == 0 ? toLog2 : 1));
-        }
+    const auto values = m.withSunBeyondZenith();
+    for (std::size_t row = 0; row < values.size() / m.wavelengths; ++row)
+        for (int w = 0; w < m.wavelengths; ++w)
+            moments[row * stride + w] = static_cast<float>(values[row * m.wavelengths + w] * (row % harmonics == 0 ? toLog2 : 1));
     for (int sun = 0; sun < suns; ++sun)
         for (int w = 0; w < m.wavelengths; ++w)
             ground[std::size_t(sun) * stride + w] =
-                static_cast<float>(std::log2(std::max(m.groundIrradiance[sun * m.wavelengths + w], physics::darkness)));
-    for (int f = 0; f <= (suns - 1) * refinement; ++f)
+                static_cast<float>(std::log2(std::max(m.groundIrradiance[grid.sunAsHigh(sun) * m.wavelengths + w], physics::darkness)));
+    for (int f = 0; f <= (grid.sunCount() - 1) * refinement; ++f)
         fineSuns.push_back(grid.sunStencil(double(f) / refinement));
 }
 

@@ -6,6 +6,7 @@ namespace sky::solver {
 
 /// The radiation field as the fold reads it: in main memory, wavelengths padded to whole sets of four.
 struct FoldField {
+    /// suns: of the moments' grid, and one beyond the zenith (Moments::withSunBeyondZenith)
     int suns = 0, harmonics = 0, stride = 0; ///< stride: padded wavelengths
     std::array<float, 3> sunAxis{};          ///< of the axis of Suns: a, sinh a, v of the lowest (physics::MomentGrid)
     std::vector<float> moments;              ///< [altitude][sun][lm][wavelength]: log2 I_00, then I_lm / I_00

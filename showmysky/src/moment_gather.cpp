@@ -84,7 +84,7 @@ MomentGather::MomentGather(const Atmosphere& atmosphere, const Phases& phases, c
                            const physics::SunTable& sun, double sunAngularRadius)
     : atmosphere_(atmosphere), phases_(phases), moments_(moments), sun_(sun), sunRadius_(static_cast<float>(sunAngularRadius)),
       stride_((atmosphere.wavelengths() + 3) / 4 * 4), scatterers_(atmosphere.scatterers()), degree_(moments ? moments->degree : 0),
-      suns_(moments ? moments->grid.sunCount() : 0)
+      suns_(moments ? moments->grid.sunCount() + 1 : 0)
 {
     const int wavelengths = atmosphere.wavelengths();
     const auto& depths = sun.opticalDepths();
@@ -98,16 +98,17 @@ MomentGather::MomentGather(const Atmosphere& atmosphere, const Phases& phases, c
     groundField_.assign(static_cast<std::size_t>(suns_ * 2 * stride_), 1.f);
     for (int j = 0; j < suns_; ++j)
         for (int w = 0; w < wavelengths; ++w)
-            groundField_[static_cast<std::size_t>(j * 2 * stride_ + w)] = static_cast<float>(
-                std::log2(std::max(moments->groundIrradiance[static_cast<std::size_t>(j * wavelengths + w)], physics::darkness)));
+            groundField_[static_cast<std::size_t>(j * 2 * stride_ + w)] = static_cast<float>(std::log2(std::max(
+                moments->groundIrradiance[static_cast<std::size_t>(moments->grid.sunAsHigh(j) * wavelengths + w)], physics::darkness)));
     const int harmonics = physics::harmonicCount(degree_);
-    field_.assign(static_cast<std::size_t>(moments->grid.altitudeCount() * suns_ * harmonics * stride_), 0.f);
-    for (int a = 0; a < moments->grid.altitudeCount(); ++a)
-        for (int j = 0; j < suns_; ++j)
-            for (int lm = 0; lm < harmonics; ++lm)
-                for (int w = 0; w < wavelengths; ++w)
-                    field_[static_cast<std::size_t>(((a * suns_ + j) * harmonics + lm) * stride_ + w)] =
-                        static_cast<float>(moments->at(a, j)[lm * wavelengths + w] * (lm == 0 ? static_cast<double>(toLog2) : 1.));
+    const auto values = moments->withSunBeyondZenith();
+    const std::size_t rows = values.size() / static_cast<std::size_t>(wavelengths);
+    field_.assign(rows * static_cast<std::size_t>(stride_), 0.f);
+    for (std::size_t row = 0; row < rows; ++row)
+        for (std::size_t w = 0; w < static_cast<std::size_t>(wavelengths); ++w)
+            field_[row * static_cast<std::size_t>(stride_) + w] =
+                static_cast<float>(values[row * static_cast<std::size_t>(wavelengths) + w] *
+                                   (row % static_cast<std::size_t>(harmonics) == 0 ? static_cast<double>(toLog2) : 1.));
 }
 
 void MomentGather::setAltitude(double altitude)

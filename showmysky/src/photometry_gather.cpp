@@ -95,8 +95,10 @@ FastGather::FastGather(const physics::Medium& medium, const physics::Optics& opt
 {
     const auto& depths = sun.opticalDepths();
     depth_ = toBlocks(depths.data(), depths.size() / wavelengths_, wavelengths_);
-    if (moments)
-        field_ = toBlocks(moments->values.data(), moments->values.size() / wavelengths_, wavelengths_);
+    if (moments) {
+        const auto values = moments->withSunBeyondZenith();
+        field_ = toBlocks(values.data(), values.size() / wavelengths_, wavelengths_);
+    }
     for (const int s : optics.scatterers) {
         const auto rows = toBlocks(&optics.moments[s * (degree_ + 1) * wavelengths_], degree_ + 1, wavelengths_);
         lambda_.insert(lambda_.end(), rows.begin(), rows.end());
@@ -202,7 +204,7 @@ void FastGather::gatherMultiple(FastScratch& scratch, const double muSun, const 
 {
     const NodeSet& set = scratch.ray.multiple;
     const auto& grid = moments_->grid;
-    const int harmonics = physics::harmonicCount(degree_), suns = grid.sunCount();
+    const int harmonics = physics::harmonicCount(degree_), suns = grid.sunCount() + 1;
     scratch.byDegree.resize(degree_ + 1, Block{all(0)});
     std::vector<float>& towards = scratch.harmonics;
     towards.resize(harmonics);

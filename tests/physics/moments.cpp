@@ -69,10 +69,10 @@ TEST_CASE("stencils over altitude: a jump between two close levels does not thro
     }
 }
 
-TEST_CASE("stencils over the Sun: partition of unity, straight lines kept, slopes continuous")
+TEST_CASE("stencils over the Sun: partition of unity, straight lines kept, slopes continuous, over the zenith too")
 {
     const MomentGrid grid(earth, unevenLevels, -0.3, 9);
-    const double values[9] = {4, 1, -2, 5, 5, 3, 8, 0, 1};
+    const double values[10] = {4, 1, -2, 5, 5, 3, 8, 0, 1, 0}; // the last beyond the zenith
     const auto f = [&](double position) { return through(grid.sunStencil(position), [&](int i) { return values[i]; }); };
     for (double x = 0; x <= 8; x += 0.0625) {
         CHECK(through(grid.sunStencil(x), [](int) { return 1.; }) == Approx(1).epsilon(1e-14));
@@ -85,6 +85,48 @@ TEST_CASE("stencils over the Sun: partition of unity, straight lines kept, slope
             const double left = (f(k) - f(k - d)) / d, right = (f(k + d) - f(k)) / d;
             CHECK(left == Approx(right).margin(1e-3)); // second derivatives of some 30 times d
         }
+    }
+    CHECK((f(8) - f(8 - d)) / d == Approx(0).margin(1e-3)); // even
+    CHECK(grid.sunAsHigh(9) == 7);
+    CHECK(grid.sunAsHigh(8) == 8);
+}
+
+TEST_CASE("moments of a Sun beyond the zenith are those before it, turned round")
+{
+    Moments m;
+    m.grid = MomentGrid(earth, {0, 120e3}, -0.3, 4);
+    m.degree = 2;
+    m.wavelengths = 2;
+    for (int i = 0; i < 2 * 4 * 6 * 2; ++i)
+        m.values.push_back(0.01 * i);
+    const auto wider = m.withSunBeyondZenith();
+    REQUIRE(wider.size() == 2 * 5 * 6 * 2);
+    const int signs[6] = {1, 1, -1, 1, -1, 1}; // (l, m) = 00 10 11 20 21 22
+    for (int a = 0; a < 2; ++a)
+        for (int sun = 0; sun < 5; ++sun)
+            for (int lm = 0; lm < 6; ++lm)
+                for (int w = 0; w < 2; ++w)
+                    CHECK(wider[static_cast<std::size_t>(((a * 5 + sun) * 6 + lm) * 2 + w)] ==
+                          (sun == 4 ? signs[lm] * m.at(a, 2)[lm * 2 + w] : m.at(a, sun)[lm * 2 + w]));
+    // Even orders turn at the zenith, odd ones go through it.
+    for (int lm = 0; lm < 6; ++lm)
+        for (int a = 0; a < 2; ++a)
+            for (int w = 0; w < 2 && signs[lm] < 0; ++w)
+                m.at(a, 3)[lm * 2 + w] = 0;
+    const auto at = [&](double fromZenith) {
+        std::vector<double> result(12);
+        m.interpolate(0, std::cos(fromZenith), result.data());
+        for (int lm = 1; lm < 6; ++lm)
+            for (std::size_t w = 0; w < 2; ++w)
+                result[static_cast<std::size_t>(lm) * 2 + w] /= result[w];
+        return result;
+    };
+    const auto here = at(0), near = at(1e-3), twice = at(2e-3);
+    for (std::size_t i = 0; i < 12; ++i) {
+        INFO("value " << i);
+        const double once = near[i] - here[i], more = twice[i] - here[i];
+        CHECK(more == Approx((signs[i / 2] < 0 ? 2 : 4) * once).epsilon(0.01).margin(1e-9)); // squares, or a straight line
+        CHECK(std::abs(once) > 1e-8);
     }
 }
 

@@ -1,6 +1,8 @@
-// From frame to frame while the Sun sets: no pixel's light jumps by more than the frames before and after foretell.
+// From frame to frame while the Sun moves: no pixel's light jumps by more than the frames before and after foretell.
 
+#include "showmysky/photometry.hpp"
 #include "sky_for_tests.hpp"
+#include <functional>
 
 using namespace showmysky;
 using namespace showmysky::testing;
@@ -76,5 +78,39 @@ TEST_CASE("sunset: no pixel jumps from one frame to the next", "[gl][slow]")
         for (double& value : flawed[10])
             value += 0.01;
         CHECK(largestBend(flawed).size > 0.0075);
+    }
+}
+
+TEST_CASE("a Sun that passes the zenith bends no pixel's light there", "[gl]")
+{
+    const auto context = sky::gl::testing::context(desktop());
+    if (!context)
+        return;
+    Sky sky = loadedSky(*context);
+    const Photometer fast(SHOWMYSKY_TEST_MODEL), reference(SHOWMYSKY_TEST_MODEL, Photometer::Method::reference);
+    const double viewZenith = 60 * degree, viewAzimuth = 70 * degree;
+    // Light of higher orders with the Sun some degrees before the zenith or behind it.
+    const auto answers = [&](const Photometer& photometer, double past) {
+        const Photometer::View view{0, std::abs(past) * degree, past < 0 ? 0 : 180 * degree, viewZenith, viewAzimuth};
+        return photometer.luminance(view, Photometer::multipleScattering).Y;
+    };
+    const auto drawn = [&](double past) {
+        auto settings = scene(0, std::abs(past));
+        settings.sun.azimuth = past < 0 ? 0 : 180 * degree;
+        settings.layers.singleScattering = settings.layers.zeroOrder = false;
+        sky.setSettings(settings);
+        sky.draw({Projection::perspective, 1 * degree, viewAzimuth, 90 * degree - viewZenith, 0}, 1, 1);
+        return static_cast<double>(sky.pixelLuminance(0, 0).y);
+    };
+    const std::function<double(double)> readers[] = {[&](double past) { return answers(fast, past); },
+                                                     [&](double past) { return answers(reference, past); }, drawn};
+    for (const auto& reader : readers) {
+        const auto bendAt = [&](double past) {
+            return std::log(reader(past - 1)) - 2 * std::log(reader(past)) + std::log(reader(past + 1));
+        };
+        CAPTURE(&reader - readers, bendAt(-2), bendAt(0), bendAt(2));
+        // A grid that went on straight to the zenith has a kink of 1.8e-3 there.
+        for (const double past : {-2., 2.})
+            CHECK(bendAt(0) == Approx(bendAt(past)).margin(3e-5));
     }
 }
