@@ -95,7 +95,7 @@ void ScatteredField::State::shine()
                     visible({static_cast<float>(place[0]), static_cast<float>(place[1]), static_cast<float>(place[2])}), 0.f, 1.f);
                 put(sunlight, level * finePoints + point, levelCount * finePoints, share);
                 if (level == 0) {
-                    sun.horizontalIrradiance(altitude, muSun, light.data());
+                    sun.groundIrradiance(muSun, light.data());
                     put(sunnyGround, point, finePoints, share);
                 }
             }

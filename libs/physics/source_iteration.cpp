@@ -82,7 +82,7 @@ Moments iterateSource(const Medium& medium, const Profile& profile, const Optics
                     if (ray.hitsGround) {
                         const double muSunGround = ray.ground.sunScale * muSun + ray.ground.nuScale * nu;
                         if (order == 1)
-                            sun.horizontalIrradiance(0, muSunGround, irradiance.data());
+                            sun.groundIrradiance(muSunGround, irradiance.data());
                         else
                             previous.interpolateGround(muSunGround, irradiance.data());
                         for (int w = 0; w < wavelengths; ++w)

@@ -89,14 +89,15 @@ SunTable::SunTable(const Profile& profile, const Optics& optics, const double su
     : planet_(profile.planet()), sunRadius_(sunAngularRadius), scale_(scaleFor(profile, optics, sunAngularRadius)),
       elevations_(static_cast<int>(std::lround(elevations * axisLength(scale_, pi / 2) / axisLength(usualScale, pi / 2)))),
       wavelengths_(optics.wavelengths), altitudes_(tableAltitudes(profile, optics, altitudeCount)),
-      depth_(altitudes_.size() * elevations_ * optics.wavelengths)
+      depth_((altitudes_.size() + 1) * elevations_ * optics.wavelengths)
 {
     for (const double h : altitudes_)
         measures_.push_back(horizonDistance(planet_, h));
     const auto disc = gaussLegendre(6);
     const auto fillRow = [&](size_t row, RayTracer& tracer) {
         std::vector<double> columns(optics.species);
-        const double h = altitudes_[row], horizon = horizonElevation(planet_, h);
+        const bool onGround = row == altitudes_.size();
+        const double h = onGround ? 0 : altitudes_[row], horizon = horizonElevation(planet_, h);
         const double range = pi / 2 - horizon + sunRadius_;
         for (int k = 0; k < elevations_; ++k) {
             const double x = scale_ * std::sinh(axisLength(scale_, range) * k / (elevations_ - 1));
@@ -105,7 +106,7 @@ SunTable::SunTable(const Profile& profile, const Optics& optics, const double su
             // Across the disc the transmittance is exponential near the horizon, linear high above it: from every point of
             // a fine rule to two points with the same second moment (a quarter of the radius squared) to the centre alone.
             const double elevation = above + horizon;
-            const bool fine = above < 3 * sunRadius_, centre = sunRadius_ == 0 || (!fine && elevation > 0.05);
+            const bool fine = above < 3 * sunRadius_, centre = sunRadius_ == 0 || (!fine && elevation > 0.15);
             const size_t points = fine ? disc.nodes.size() : centre ? 1 : 2;
             std::vector<double> mean(wavelengths_, 0.);
             double weights = 0;
@@ -115,8 +116,10 @@ SunTable::SunTable(const Profile& profile, const Optics& optics, const double su
                 const double t = 0.5 * lowest * (1 + disc.nodes[q]);
                 const double offset = fine ? std::cos(t) : centre ? 0. : q == 0 ? 0.5 : -0.5;
                 const double e = std::max(0., above + sunRadius_ * offset);
-                const double weight = !fine ? 1 : disc.weights[q] * std::max(std::sin(t) * std::sin(t), 1e-12);
-                tracer.columns(h, std::sin(std::min(pi / 2, e + horizon)), columns.data(), opaque);
+                const double sine = std::sin(std::min(pi / 2, e + horizon));
+                const double weight =
+                    (fine ? disc.weights[q] * std::max(std::sin(t) * std::sin(t), 1e-12) : 1) * (onGround ? std::max(sine, 1e-12) : 1);
+                tracer.columns(h, sine, columns.data(), opaque);
                 for (int w = 0; w < wavelengths_; ++w) {
                     double tau = 0;
                     for (int s = 0; s < optics.species; ++s)
@@ -137,7 +140,7 @@ SunTable::SunTable(const Profile& profile, const Optics& optics, const double su
     for (int t = 0; t < threadCount; ++t)
         threads.emplace_back([&, t] {
             RayTracer tracer(profile, optics, 2);
-            for (size_t row = t; row < altitudes_.size(); row += threadCount)
+            for (size_t row = t; row <= altitudes_.size(); row += threadCount)
                 fillRow(row, tracer);
         });
     for (auto& thread : threads)
@@ -162,13 +165,17 @@ double SunTable::axis(const double elevation, const double horizon) const
 
 void SunTable::transmittance(const double altitude, const double muSun, double* const result) const
 {
-    const double elevation = std::asin(std::clamp(muSun, -1., 1.)), horizon = horizonElevation(planet_, altitude);
+    transmittance(row(altitude), horizonElevation(planet_, altitude), std::asin(std::clamp(muSun, -1., 1.)), result);
+}
+
+void SunTable::transmittance(const Row& place, const double horizon, const double elevation, double* const result) const
+{
     const double visible = visibleDiscFraction(elevation - horizon, sunRadius_);
     if (visible <= 0) {
         std::fill(result, result + wavelengths_, 0.);
         return;
     }
-    const auto [row, y] = this->row(altitude);
+    const auto [row, y] = place;
     const double u = axis(elevation, horizon) * (elevations_ - 1);
     const int k = std::min(static_cast<int>(u), elevations_ - 2);
     const double x = u - k;
@@ -180,22 +187,21 @@ void SunTable::transmittance(const double altitude, const double muSun, double* 
     }
 }
 
-void SunTable::horizontalIrradiance(const double altitude, const double muSun, double* const result) const
+void SunTable::groundIrradiance(const double muSun, double* const result) const
 {
-    transmittance(altitude, muSun, result);
-    // Mean cosine over the visible part of the disc, to first order in its radius: the centroid of a circular segment.
-    const double elevation = std::asin(std::clamp(muSun, -1., 1.));
-    double cosine = std::max(muSun, 0.);
-    if (std::abs(elevation) < sunRadius_) {
-        const double x = elevation / sunRadius_, area = pi * visibleDiscFraction(elevation, sunRadius_);
-        const double lift = x < -0.99 ? 0 : sunRadius_ * 2. / 3. * std::pow(1 - x * x, 1.5) / area;
-        cosine = std::max(0., elevation + lift);
-        // The transmittance counts what the horizon leaves of the disc; a surface up in the air loses what is below its plane.
-        const double visible = visibleDiscFraction(elevation - horizonElevation(planet_, altitude), sunRadius_);
-        cosine *= visible > 0 ? visibleDiscFraction(elevation, sunRadius_) / visible : 0;
-    }
+    const double cosine = horizontalSunCosine(muSun, sunRadius_);
+    transmittance(groundRow(), 0, std::asin(std::clamp(muSun, -1., 1.)), result);
     for (int w = 0; w < wavelengths_; ++w)
         result[w] *= cosine;
+}
+
+double horizontalSunCosine(const double muSun, const double sunAngularRadius)
+{
+    const double elevation = std::asin(std::clamp(muSun, -1., 1.));
+    if (std::abs(elevation) >= sunAngularRadius)
+        return std::max(muSun, 0.);
+    const double x = elevation / sunAngularRadius, area = pi * visibleDiscFraction(elevation, sunAngularRadius);
+    return std::max(0., elevation + (x < -0.99 ? 0 : sunAngularRadius * 2 / 3 * std::pow(1 - x * x, 1.5) / area));
 }
 
 void sunOnSurface(const Profile& profile, const Optics& optics, const double sunAngularRadius, const double altitude,

@@ -74,7 +74,7 @@ DirectRayData::DirectRayData(const Scene& scene, const std::vector<RayStart>& st
             float* to = &rayNodes[(r * (nodeCount + 1) + k) * 8];
             putNode(to, node, ray.hitsGround ? 1 : 0);
             const double horizon = physics::horizonElevation(scene.profile.planet(), h);
-            const auto [row, fraction] = scene.sun.row(h);
+            const auto [row, fraction] = k < nodeCount ? scene.sun.row(h) : scene.sun.groundRow();
             to[4] = static_cast<float>(horizon);
             to[5] = static_cast<float>(1 / std::asinh((pi / 2 - horizon + scene.medium.sunAngularRadius) / scene.sun.elevationScale()));
             to[6] = static_cast<float>(row);

@@ -4,7 +4,7 @@
 #include "solve/rays.glsl"
 #include "lib/sun.glsl"
 
-uniform samplerBuffer sunDepths; // [altitude][elevation][set]: optical depth towards the visible part of the Sun
+uniform samplerBuffer sunDepths; // [altitude, then the ground with its cosine][elevation][set]: optical depth towards the visible part of the Sun
 uniform samplerBuffer weights;   // [ray][node][scatterer][set]
 uniform samplerBuffer ground;    // [ray][set]: transmittance times albedo / pi
 uniform samplerBuffer phases;    // FIELD: [scatterer][l][set], (2l+1)/(4 pi) lambda_l; else [scatterer][angle][set]

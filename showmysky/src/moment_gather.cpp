@@ -164,6 +164,8 @@ void MomentGather::trace(int index, physics::RayTracer& tracer) const
         }
     if (ray.ground) {
         ray.groundNode = nodeOf(entry->node(single.ground));
+        ray.groundNode.sunRow = sun_.groundRow().index;
+        ray.groundNode.sunRowShare = static_cast<float>(sun_.groundRow().fraction);
         for (int w = 0; w < stride_; ++w)
             ray.groundFactors.push_back(w < wavelengths
                                             ? static_cast<float>(single.groundTransmittance[static_cast<std::size_t>(w)] *
@@ -284,14 +286,7 @@ void MomentGather::addGround(const Ray& ray, float muSun, float nu, const Layers
     const float elevation = std::asin(muSunThere);
     std::vector<float> light(static_cast<std::size_t>(stride_));
     sunlight(node, elevation, light.data());
-    // Mean cosine over the visible part of the disc: the centroid of a circular segment, as physics::SunTable has it.
-    float cosine = std::max(muSunThere, 0.f);
-    if (std::abs(elevation) < sunRadius_) {
-        const float x = elevation / sunRadius_;
-        const auto area =
-            static_cast<float>(pi * physics::visibleDiscFraction(static_cast<double>(elevation), static_cast<double>(sunRadius_)));
-        cosine = std::max(0.f, elevation + (x < -0.99f ? 0.f : sunRadius_ * 2 / 3 * std::pow(1 - x * x, 1.5f) / area));
-    }
+    const auto cosine = static_cast<float>(physics::horizontalSunCosine(static_cast<double>(muSunThere), static_cast<double>(sunRadius_)));
     for (float& value : light)
         value *= layers.groundDirect ? cosine : 0.f;
     if (moments_ && layers.groundDiffuse) {

@@ -181,7 +181,7 @@ void Photometer::Inside::addGround(const RayStart& start, double nu, Scratch& sc
     } else {
         transmittance = physics::RayTracer(sky.profile, sky.optics).trace(start.altitude, start.mu, 2, true).groundTransmittance;
     }
-    sky.sun.horizontalIrradiance(0, muSun, scratch.light.data());
+    sky.sun.groundIrradiance(muSun, scratch.light.data());
     for (int w = 0; w < count; ++w)
         result[w] += sky.medium.groundAlbedo[w] / pi * transmittance[w] * scratch.light[w];
     if (!sky.moments)

@@ -94,7 +94,7 @@ void EclipsePhotometry::radiance(const Photometer::View& view, const Moon& moon,
             for (std::size_t w = 0; w < wavelengths; ++w)
                 result[w] += ray.groundTransmittance[w] * sky_.medium.groundAlbedo[w] / pi * share(w) * light[w];
         };
-        sky_.sun.horizontalIrradiance(0, muSunThere, light.data());
+        sky_.sun.groundIrradiance(muSunThere, light.data());
         addReflected([&](std::size_t) { return visible; });
         if (sky_.moments) {
             sky_.moments->interpolateGround(muSunThere, light.data());

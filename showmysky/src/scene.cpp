@@ -560,7 +560,7 @@ std::vector<double> Scene::spectralRadiance(const std::array<double, 3>& directi
         const auto there = entry->node(ray.ground);
         const double muSunThere = std::clamp(there.sunScale * muSun + there.nuScale * nu, -1., 1.);
         std::vector<double> direct(wavelengths), diffuse(wavelengths, 0.);
-        sun_->horizontalIrradiance(0, muSunThere, direct.data());
+        sun_->groundIrradiance(muSunThere, direct.data());
         if (moments_)
             moments_->interpolateGround(muSunThere, diffuse.data());
         if (eclipse)

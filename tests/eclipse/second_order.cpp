@@ -123,7 +123,7 @@ private:
         }
         if (!ray.hitsGround)
             return;
-        sun.horizontalIrradiance(0, ray.ground.sunScale * muSun + ray.ground.nuScale * nu, light.data());
+        sun.groundIrradiance(ray.ground.sunScale * muSun + ray.ground.nuScale * nu, light.data());
         const double share = shareAt(ray.ground);
         for (int w = 0; w < wavelengths; ++w) {
             const double reflected = ray.groundTransmittance[w] * air.medium.groundAlbedo[w] / pi * light[w];
