@@ -413,6 +413,32 @@ TEST_CASE("shader functions: in an eclipse light of higher orders up to a point 
     CHECK(nearest < 0.5); // the light comes from beyond the umbra
 }
 
+TEST_CASE("shader functions: in an eclipse from the model's table light grows with distance as on the fly", "[gl]")
+{
+    const auto context = gl::testing::context(desktop());
+    if (!context)
+        return;
+    Sky sky(SHOWMYSKY_ECLIPSE, context->loader());
+    sky.loadAll();
+    Host radiance(context->api(), sky, "showmyskyRadianceTo(d, metres)", 1, 1);
+    auto settings = scene(0, 80, Source::textures);
+    settings.eclipse = EclipseMode::on;
+    settings.layers.zeroOrder = settings.layers.singleScattering = false; // so that pictures need no field of their own
+    settings.moon = {settings.sun.azimuth, settings.sun.zenithAngle, sky.moonDistance()};
+    const auto direction = directionOf(settings.sun.azimuth + 1, 80 * degree);
+    double shares[2];
+    for (const bool precomputed : {false, true}) {
+        settings.precomputedEclipse = precomputed;
+        sky.setSettings(settings);
+        REQUIRE(sky.usesEclipseTable(settings) == precomputed);
+        shares[precomputed] =
+            static_cast<double>(radiance.ask(sky, direction, 30e3).y) / static_cast<double>(radiance.ask(sky, direction, 1e9).y);
+    }
+    CHECK(shares[1] == Approx(shares[0]).epsilon(1e-3));
+    CHECK(shares[0] > 0.02);
+    CHECK(shares[0] < 0.5);
+}
+
 TEST_CASE("shader functions: in an eclipse sky and illuminance are those of single directions", "[gl]")
 {
     const auto context = gl::testing::context(desktop());
