@@ -19,6 +19,8 @@ struct MomentSettings {
     bool truncatePeaks = true; ///< delta-M scaling
     double tolerance = 2.5e-3; ///< share of the light, rms: all orders are there when an event changes their closed series by less
     int leastAzimuthal = 4;    ///< azimuthal order that all events go up to
+    /// Relative error that later events may take on in each gap between the stations of a ray (solver/stations.hpp); 0: none.
+    double stationTolerance = 0;
 
     /// Share of an event's light for which an azimuthal order is worth its time. The sky holds less of it, and loses only what later events
     /// would make of it.

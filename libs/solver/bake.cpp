@@ -233,7 +233,7 @@ void gatherMultipleScattering(const gl::Api& api, const BakeJob& job, const phys
                               const std::function<void(double)>& breath,
                               const std::function<void(int layer, std::vector<float> texels)>& use)
 {
-    ScatteredGather gather(api, job.scene, false, luminance ? luminanceOf(job.scene.medium) : std::vector<std::array<double, 4>>{});
+    ScatteredGather gather(api, job.scene, luminance ? luminanceOf(job.scene.medium) : std::vector<std::array<double, 4>>{});
     const FoldField fine(field, job.settings.refinement);
     const auto altitudes = job.altitudes();
     const std::size_t floats = luminance ? 4 : std::size_t(job.scene.sets()) * 4;
@@ -244,7 +244,8 @@ void gatherMultipleScattering(const gl::Api& api, const BakeJob& job, const phys
         const SunSamples samples = samplesOf(api, job, altitudes[layer]);
         for (int first = 0; first < shape.views; first += shape.viewsAtOnce) {
             const int count = std::min(shape.viewsAtOnce, shape.views - first);
-            const ScatteredRays rays(api, job.scene, field.grid, viewsFrom(job, altitudes[layer], first, count), job.settings.nodes);
+            const ScatteredRays rays(api, job.scene, field.grid, viewsFrom(job, altitudes[layer], first, count),
+                                     {job.settings.nodes, job.settings.stationTolerance, false});
             gather.gather(rays, fine, rays.degree, samples, shape.strides(count), results,
                           [&] { breath(double(layer) / double(altitudes.size())); });
             shape.place(results.download().data(), first, count, floats, values);

@@ -11,7 +11,8 @@ namespace sky::solver {
 struct BakeSettings {
     int directNodes = 40;
     int nodes = 14;
-    int refinement = 4; ///< fine Suns per Sun of the moments
+    int refinement = 4;          ///< fine Suns per Sun of the moments
+    double stationTolerance = 0; ///< see ScatteredRaySettings
     /// Nodes for sunlight must resolve the edge of the shadow, but no finer than a table of so many Suns can show it: all for 128 or more,
     /// half of them for 32 or fewer.
     int directNodesFor(int suns) const;

@@ -52,4 +52,12 @@ inline int raysTogether(const gl::Api& api, const SunSamples& samples, int rays,
     return static_cast<int>(std::min<std::size_t>(std::max<std::size_t>(1, std::min(fitting, visitsPerDispatch / visits)), rays));
 }
 
+/// Likewise stations, of one ray at least.
+inline std::size_t stationsTogether(const gl::Api& api, const SunSamples& samples, const ScatteredRays& rays, std::size_t vec4sPerStation)
+{
+    const std::size_t fitting = std::min(sourceBytes / 16, gl::BufferTexture::maxTexels(api)) / vec4sPerStation;
+    const std::size_t visits = visitsPerDispatch / (std::size_t(samples.suns) * samples.azimuths);
+    return std::min<std::size_t>(std::max<std::size_t>(rays.nodes + 1, std::min(fitting, visits)), rays.firstStation.back());
+}
+
 } // namespace sky::solver

@@ -109,9 +109,10 @@ void refine(const float* __restrict source, const std::vector<physics::Stencil>&
 }
 
 /// What depends on the ray alone: `coefficients` [node][lm][stride].
-void foldDirections(const ScatteredRays& rays, std::size_t firstNode, int azimuthal, int harmonics, int stride, float* coefficients)
+void foldDirections(const ScatteredRays& rays, std::size_t firstNode, int nodes, int azimuthal, int harmonics, int stride,
+                    float* coefficients)
 {
-    for (int k = 0; k < rays.nodes; ++k, coefficients += harmonics * stride) {
+    for (int k = 0; k < nodes; ++k, coefficients += harmonics * stride) {
         const float* c = &rays.coefficients[(firstNode + k) * (rays.degree + 1) * stride];
         const float* p = &rays.factors[(firstNode + k) * harmonics];
         for (int l = 0; l <= rays.degree; ++l)
@@ -124,12 +125,48 @@ void foldDirections(const ScatteredRays& rays, std::size_t firstNode, int azimut
 }
 
 /// What the ground throws into a ray: the same in all azimuths.
+///   to  [sun][1 + term][stride]
 void foldGround(const FoldField& field, const float* reflectance, int rows, float* to)
 {
     for (int sun = 0; sun < field.suns; ++sun, to += rows * field.stride) {
         std::fill_n(to, rows * field.stride, 0.F);
         std::copy_n(&field.ground[std::size_t(sun) * field.stride], field.stride, to);
         std::copy_n(reflectance, field.stride, to + field.stride);
+    }
+}
+
+/// Adds a part of a node's light to a station: both [sun][row][channel], the node's as logarithm of the mean and terms relative to
+/// it, the station's as sums.
+///   seen   what the node's mean counts in the station's
+///   means  scratch, [channel]
+SKY_WIDEST_VECTORS
+void addShare(const float* __restrict node, int suns, int rows, int channels, float part, float seen, float* __restrict means,
+              float* __restrict station)
+{
+    for (int sun = 0; sun < suns; ++sun, node += rows * channels, station += rows * channels) {
+        for (int c = 0; c < channels; ++c) {
+            means[c] = part * base::exp2Lane(node[c]);
+            station[c] += seen * means[c];
+        }
+        for (int m = 1; m < rows; ++m)
+            for (int c = 0; c < channels; ++c)
+                station[m * channels + c] += means[c] * node[m * channels + c];
+    }
+}
+
+/// Sums to logarithms and ratios.
+SKY_WIDEST_VECTORS
+void toRatios(int suns, int rows, int channels, float* __restrict inverse, float* __restrict station)
+{
+    for (int sun = 0; sun < suns; ++sun, station += rows * channels) {
+        for (int c = 0; c < channels; ++c) {
+            const float mean = std::max(station[c], std::numeric_limits<float>::min());
+            inverse[c] = 1 / mean;
+            station[c] = base::log2Lane(mean);
+        }
+        for (int m = 1; m < rows; ++m)
+            for (int c = 0; c < channels; ++c)
+                station[m * channels + c] *= inverse[c];
     }
 }
 
@@ -160,23 +197,54 @@ void fold(const FoldField& field, const ScatteredRays& rays, const int first, co
           const std::vector<std::array<float, 4>>& luminance, float* const source)
 {
     const int rows = azimuthal + 2, stride = field.stride, channels = luminance.empty() ? stride : 4;
-    const int values = field.suns * rows;
+    const std::size_t values = std::size_t(field.suns) * rows, fine = field.fineSuns.size() * rows * channels;
     base::parallel([&](int thread, int threads) {
-        std::vector<float> coefficients(std::size_t(rays.nodes) * field.harmonics * stride),
-            spectral(std::size_t(rays.nodes + 1) * values * stride), bright(luminance.empty() ? 0 : std::size_t(values) * 4);
+        std::vector<float> coefficients(std::size_t(rays.nodes) * field.harmonics * stride), spectral((rays.nodes + 1) * values * stride),
+            bright(luminance.empty() ? 0 : values * 4), means(channels), stations;
+        std::vector<bool> sums; // of stations: not light of a single node
         std::vector<Four> weights(stride);
         for (int r = thread; r < count; r += threads) {
             const std::size_t firstNode = std::size_t(first + r) * rays.nodes;
-            foldDirections(rays, firstNode, azimuthal, field.harmonics, stride, coefficients.data());
-            foldNodes(field, &rays.folds[firstNode], rays.nodes, rays.degree, azimuthal, coefficients.data(), spectral.data());
-            foldGround(field, &rays.ground[std::size_t(first + r) * stride], rows, &spectral[std::size_t(rays.nodes) * values * stride]);
+            const Stations::Share* const shares = &rays.shares[std::size_t(first + r) * (rays.nodes + 1)];
+            int lit = rays.nodes;
+            while (lit > 0 && shares[lit - 1].seen == 0)
+                --lit;
+            foldDirections(rays, firstNode, lit, azimuthal, field.harmonics, stride, coefficients.data());
+            foldNodes(field, &rays.folds[firstNode], lit, rays.degree, azimuthal, coefficients.data(), spectral.data());
+            if (shares[rays.nodes].seen > 0)
+                foldGround(field, &rays.ground[std::size_t(first + r) * stride], rows, &spectral[rays.nodes * values * stride]);
+            const int firstStation = rays.firstStation[first + r], stationCount = rays.firstStation[first + r + 1] - firstStation;
+            const auto finish = [&](const float* station, int index) {
+                refine(station, field.fineSuns, rows * channels, source + (firstStation - rays.firstStation[first] + index) * fine);
+            };
+            stations.assign(stationCount * values * channels, 0.F);
+            sums.assign(stationCount, true);
             for (int k = 0; k <= rays.nodes; ++k) {
-                const float* node = &spectral[std::size_t(k) * values * stride];
-                if (!luminance.empty())
+                const auto& share = shares[k];
+                if (share.seen == 0)
+                    continue;
+                const float* node = &spectral[k * values * stride];
+                if (!luminance.empty()) {
                     toLuminance(node, luminance.data()->data(), field.suns, rows, stride, weights.data(), bright.data());
-                refine(luminance.empty() ? node : bright.data(), field.fineSuns, rows * channels,
-                       source + (std::size_t(r) * (rays.nodes + 1) + k) * field.fineSuns.size() * rows * channels);
+                    node = bright.data();
+                }
+                if (share.alone) {
+                    finish(node, share.station);
+                    sums[share.station] = false;
+                    continue;
+                }
+                float* const nearer = &stations[share.station * values * channels];
+                if (share.nearer > 0)
+                    addShare(node, field.suns, rows, channels, share.nearer, share.seen, means.data(), nearer);
+                if (share.farther > 0)
+                    addShare(node, field.suns, rows, channels, share.farther, share.seen, means.data(), nearer + values * channels);
             }
+            for (int i = 0; i < stationCount; ++i)
+                if (sums[i]) {
+                    float* const station = &stations[i * values * channels];
+                    toRatios(field.suns, rows, channels, means.data(), station);
+                    finish(station, i);
+                }
         }
     });
 }

@@ -22,13 +22,14 @@ struct FoldField {
 /// Folds what depends on a ray alone into azimuthal terms per node and Sun, so that the gather meets at most degree + 1 numbers
 /// instead of (degree + 1)(degree + 2) / 2, and no altitudes (shaders/lib/scattered.glsl):
 ///     g_m = sum over l, i of w_i lambda_l,i (I_lm / I_00) P_lm(mu)
+/// and adds up I_00 g_m of the nodes that share a station.
 /// Done here because a CPU's vectors suit it better than a software driver's loads and scalar stores (docs/method 8).
 /// Where only luminance is asked for, wavelengths collapse here too, once a ray instead of once a texel. Last, cubics put fine
 /// Suns between those of the field: smooth numbers, so that folding the fine ones would only cost more.
 ///   azimuthal  highest azimuthal order that is kept
 ///   luminance  [padded wavelength][X, Y, Z, scotopic] of unit radiance; empty: spectral
-///   source     [ray][node + ground][fine sun][1 + term][wavelength, or component of luminance], rays first .. first + count - 1;
-///              term 0 is log2 of the mean, the others are relative to it
+///   source     [station][fine sun][1 + term][wavelength, or component of luminance], of rays first .. first + count - 1;
+///              term 0 is log2 of a mean, the others are relative to it
 void fold(const FoldField& field, const ScatteredRays& rays, int first, int count, int azimuthal,
           const std::vector<std::array<float, 4>>& luminance, float* source);
 

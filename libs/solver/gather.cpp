@@ -130,12 +130,10 @@ void DirectGather::gather(const DirectRays& rays, const SunSamples& samples, Str
     gl::checkErrors(api_, "direct gather");
 }
 
-ScatteredGather::ScatteredGather(const gl::Api& api, const Scene& scene, bool fromGround,
-                                 const std::vector<std::array<double, 4>>& luminance)
+ScatteredGather::ScatteredGather(const gl::Api& api, const Scene& scene, const std::vector<std::array<double, 4>>& luminance)
     : api_(api), scene_(scene), sets_(luminance.empty() ? scene.sets() : 1), setsTogether_(std::min(mostSets, sets_)),
       program_(gl::ProgramBuilder(api, shaders::source)
-                   .compute("scattered gather", "solve/scattered.comp",
-                            {{"SETS", std::to_string(setsTogether_)}, {"FROM_GROUND", fromGround ? "1" : "0"}})),
+                   .compute("scattered gather", "solve/scattered.comp", {{"SETS", std::to_string(setsTogether_)}})),
       luminance_(luminanceTexels(scene, luminance))
 {
 }
@@ -144,27 +142,31 @@ void ScatteredGather::gather(const ScatteredRays& rays, const FoldField& field, 
                              Strides strides, gl::Buffer& results, const Breath& breath)
 {
     bindSamples(program_, samples, strides, rays.nodes);
-    bind(program_, "rayNodes", 2, rays.rayNodes);
+    bind(program_, "rayNodes", 2, rays.stations);
+    bind(program_, "rays", 4, rays.rays);
     program_.set("fieldSuns", field.fineSunCount());
     program_.set("terms", azimuthal + 1);
     program_.set("sunAxisOfField", field.sunAxis);
 
-    const std::size_t perRay = std::size_t(rays.nodes + 1) * field.fineSunCount() * (azimuthal + 2) * sets_;
-    const int chunk = raysTogether(api_, samples, rays.count, rays.nodes, perRay);
-    if (!source_ || sourceTexels_ < chunk * perRay) {
+    const std::size_t perStation = std::size_t(field.fineSunCount()) * (azimuthal + 2) * sets_;
+    const std::size_t most = stationsTogether(api_, samples, rays, perStation);
+    if (!source_ || sourceTexels_ < most * perStation) {
         source_.reset();
-        source_.emplace(api_, "ray sources", chunk * perRay);
-        sourceTexels_ = chunk * perRay;
+        source_.emplace(api_, "ray sources", most * perStation);
+        sourceTexels_ = most * perStation;
     }
     bind(program_, "source", 3, *source_);
     results.bindStorage(0);
     const gl::Bound pass(program_);
-    for (int first = 0; first < rays.count; first += chunk) {
+    const auto& starts = rays.firstStation;
+    for (int first = 0, count = 0; first < rays.count; first += count) {
         breath();
-        const int count = std::min(chunk, rays.count - first);
-        source_->buffer.rewrite(count * perRay * 16,
+        const auto beyond = std::upper_bound(starts.begin() + first + 1, starts.end(), starts[first] + static_cast<int>(most));
+        count = static_cast<int>(beyond - starts.begin()) - 1 - first;
+        source_->buffer.rewrite(std::size_t(starts[first + count] - starts[first]) * perStation * 16,
                                 [&](void* to) { fold(field, rays, first, count, azimuthal, luminance_, static_cast<float*>(to)); });
         program_.set("firstRay", first);
+        program_.set("firstStation", starts[first]);
         program_.set("totalSets", sets_);
         for (int set = 0; set < sets_; set += setsTogether_) {
             program_.set("firstSet", set);

@@ -59,8 +59,7 @@ private:
 class ScatteredGather
 {
 public:
-    /// \param fromGround whether light reflected by the ground into the ray counts
-    ScatteredGather(const gl::Api& api, const Scene& scene, bool fromGround, const std::vector<std::array<double, 4>>& luminance);
+    ScatteredGather(const gl::Api& api, const Scene& scene, const std::vector<std::array<double, 4>>& luminance);
 
     /// Fills `results`: rays x suns x azimuths texels, see DirectGather.
     ///   azimuthal  highest azimuthal order of the field that counts

@@ -40,8 +40,8 @@ public:
     Sums scattered(const physics::Moments& field, int event, const Breath& breath)
     {
         if (!gather_) {
-            rays_.emplace(api_, scene_, grid_, starts_, settings_.nodes);
-            gather_.emplace(api_, scene_, true, std::vector<std::array<double, 4>>{});
+            rays_.emplace(api_, scene_, grid_, starts_, ScatteredRaySettings{settings_.nodes, settings_.stationTolerance, true});
+            gather_.emplace(api_, scene_, std::vector<std::array<double, 4>>{});
         }
         const int azimuthal = physics::azimuthalDegree(scene_.optics, event, settings_.negligibleOrder(), settings_.leastAzimuthal);
         const SunSamples samples(api_, sunCosines(), azimuthCosines(settings_.azimuthsFor(azimuthal)));

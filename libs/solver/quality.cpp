@@ -168,6 +168,8 @@ Quality qualityFor(const std::string& name, const physics::Medium& medium, const
     if (truncatesPeaks(medium, q.moments.degree))
         q.moments = forPeaks(q.moments);
     q.moments.degree = neededDegree(medium, q.moments.degree, tolerance);
+    // Less than a tenth of what each quality errs by (docs/method 5).
+    q.bake.stationTolerance = q.moments.stationTolerance = 0.3 * q.moments.tolerance;
     return q;
 }
 

@@ -98,43 +98,80 @@ DirectRays::DirectRays(const gl::Api& api, const DirectRayData& data)
 
 namespace {
 
-std::vector<float> scatteredNodes(const std::vector<physics::RayNodes>& rays, int nodeCount)
+/// Angle of the Sun over which scattered light bends by as much as itself, at its worst in twilight: part of the angles that the grid of
+/// the moments resolves about the horizon, which go with the planet's dip. On Earth 0.9 degrees.
+double bendOf(const physics::MomentGrid& grid) { return 0.1 * pi / 2 / std::sinh(grid.sunScale()); }
+
+std::vector<Stations> stationsOf(const Scene& scene, const physics::MomentGrid& grid, const std::vector<physics::RayNodes>& rays,
+                                 const ScatteredRaySettings& settings)
 {
-    std::vector<float> values(rays.size() * (nodeCount + 1) * 4);
-    for (std::size_t r = 0; r < rays.size(); ++r) {
-        float* to = &values[r * (nodeCount + 1) * 4];
-        for (int k = 0; k < nodeCount; ++k)
-            putNode(to + 4 * k, rays[r].nodes[k], 0);
-        putNode(to + 4 * nodeCount, rays[r].ground, rays[r].hitsGround ? 1 : 0);
-    }
+    std::vector<Stations> result;
+    for (const auto& ray : rays)
+        result.emplace_back(ray, scene.medium.groundAlbedo, settings.fromGround, bendOf(grid), settings.stationTolerance);
+    return result;
+}
+
+std::vector<int> firstStations(const std::vector<Stations>& stations)
+{
+    std::vector<int> first{0};
+    for (const auto& s : stations)
+        first.push_back(first.back() + static_cast<int>(s.places.size()));
+    return first;
+}
+
+std::vector<float> rayTexels(const std::vector<physics::RayNodes>& rays, const std::vector<int>& firstStation)
+{
+    std::vector<float> values;
+    for (std::size_t r = 0; r < rays.size(); ++r)
+        values.insert(values.end(), {static_cast<float>(firstStation[r]), static_cast<float>(firstStation[r + 1] - firstStation[r]),
+                                     static_cast<float>(rays[r].nodes.front().mu), 0.F});
+    return values;
+}
+
+std::vector<float> stationTexels(const std::vector<Stations>& stations)
+{
+    std::vector<float> values;
+    for (const auto& s : stations)
+        for (const auto& place : s.places) {
+            values.resize(values.size() + 4);
+            putNode(&values[values.size() - 4], place, 0);
+        }
     return values;
 }
 
 } // namespace
 
 ScatteredRays::ScatteredRays(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid, const std::vector<RayStart>& starts,
-                             int nodeCount)
-    : ScatteredRays(api, scene, grid, traceRays(scene, starts, nodeCount, physics::NodesFor::Field), nodeCount)
+                             const ScatteredRaySettings& settings)
+    : ScatteredRays(api, scene, grid, traceRays(scene, starts, settings.nodes, physics::NodesFor::Field), settings)
 {
 }
 
 ScatteredRays::ScatteredRays(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid,
-                             const std::vector<physics::RayNodes>& rays, int nodeCount)
-    : count(static_cast<int>(rays.size())), nodes(nodeCount), degree(scene.optics.degree),
-      rayNodes(api, "scattered ray nodes", scatteredNodes(rays, nodeCount)), folds(rays.size() * nodeCount),
-      ground(groundTexels(scene, rays))
+                             const std::vector<physics::RayNodes>& traced, const ScatteredRaySettings& settings)
+    : ScatteredRays(api, scene, grid, traced, stationsOf(scene, grid, traced, settings), settings.nodes)
+{
+}
+
+ScatteredRays::ScatteredRays(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid,
+                             const std::vector<physics::RayNodes>& traced, const std::vector<Stations>& chosen, int nodeCount)
+    : count(static_cast<int>(traced.size())), nodes(nodeCount), degree(scene.optics.degree), firstStation(firstStations(chosen)),
+      rays(api, "scattered rays", rayTexels(traced, firstStation)), stations(api, "stations", stationTexels(chosen)),
+      folds(traced.size() * nodeCount), ground(groundTexels(scene, traced))
 {
     const auto& optics = scene.optics;
     const int stride = scene.sets() * 4, scatterers = scene.scatterers(), wavelengths = optics.wavelengths;
     const int terms = degree + 1, harmonics = physics::harmonicCount(degree);
-    coefficients.resize(rays.size() * nodeCount * terms * stride);
-    factors.resize(rays.size() * nodeCount * harmonics);
+    for (const auto& s : chosen)
+        shares.insert(shares.end(), s.shares.begin(), s.shares.end());
+    coefficients.resize(traced.size() * nodeCount * terms * stride);
+    factors.resize(traced.size() * nodeCount * harmonics);
     base::parallel([&](int thread, int threads) {
         std::vector<double> zenithal(harmonics);
-        for (std::size_t r = thread; r < rays.size(); r += threads)
+        for (std::size_t r = thread; r < traced.size(); r += threads)
             for (int k = 0; k < nodeCount; ++k) {
                 const std::size_t at = r * nodeCount + k;
-                const auto& ray = rays[r];
+                const auto& ray = traced[r];
                 const auto stencil = grid.altitudeStencil(ray.nodes[k].altitude);
                 for (int i = 0; i < 4; ++i) {
                     folds[at].level[i] = stencil.index[i];

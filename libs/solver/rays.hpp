@@ -6,6 +6,7 @@
 #include "physics/moments.hpp"
 #include "physics/ray.hpp"
 #include "physics/sun.hpp"
+#include "solver/stations.hpp"
 #include <vector>
 
 namespace sky::solver {
@@ -56,23 +57,36 @@ struct DirectRays {
     DirectRays(const gl::Api& api, const DirectRayData& data);
 };
 
-/// Rays for the light of later events: nodes for scattered.comp, the rest for fold().
+/// How light of later events is summed along rays.
+struct ScatteredRaySettings {
+    int nodes;
+    double stationTolerance; ///< relative error that the gap between two stations may cost
+    bool fromGround;         ///< whether light that the ground reflects into a ray counts
+};
+
+/// Rays for the light of later events: stations for scattered.comp, the rest for fold().
 struct ScatteredRays {
     struct FoldNode {
         int level[4]; ///< altitude stencil in the grid of moments
         float weight[4];
     };
     int count, nodes, degree;
-    TexelBuffer rayNodes;            ///< [ray][node + ground]: sunScale, nuScale, mu, hits ground
-    std::vector<FoldNode> folds;     ///< [ray][node]
-    std::vector<float> coefficients; ///< [ray][node][l][padded wavelength]: sum over scatterers of weight lambda_l
-    std::vector<float> factors;      ///< [ray][node][lm]: zenith-angle factor of the harmonic
-    std::vector<float> ground;       ///< [ray][padded wavelength]: transmittance times albedo / pi
-    ScatteredRays(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid, const std::vector<RayStart>& starts, int nodes);
+    std::vector<int> firstStation;       ///< [ray + 1]
+    std::vector<Stations::Share> shares; ///< [ray][node + ground]
+    TexelBuffer rays;                    ///< [ray]: first station, their number, mu at the start
+    TexelBuffer stations;                ///< [station]: sunScale, nuScale, mu
+    std::vector<FoldNode> folds;         ///< [ray][node]
+    std::vector<float> coefficients;     ///< [ray][node][l][padded wavelength]: sum over scatterers of weight lambda_l
+    std::vector<float> factors;          ///< [ray][node][lm]: zenith-angle factor of the harmonic
+    std::vector<float> ground;           ///< [ray][padded wavelength]: transmittance times albedo / pi
+    ScatteredRays(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid, const std::vector<RayStart>& starts,
+                  const ScatteredRaySettings& settings);
 
 private:
-    ScatteredRays(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid, const std::vector<physics::RayNodes>& rays,
-                  int nodes);
+    ScatteredRays(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid, const std::vector<physics::RayNodes>& traced,
+                  const ScatteredRaySettings& settings);
+    ScatteredRays(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid, const std::vector<physics::RayNodes>& traced,
+                  const std::vector<Stations>& chosen, int nodes);
 };
 
 } // namespace sky::solver

@@ -4,30 +4,31 @@
 #include "lib/sun.glsl"
 #include "lib/scattered.glsl"
 
-uniform samplerBuffer source; // [ray of this dispatch][node][sun][1 + term][set], from fold()
-uniform int fieldSuns, terms; // terms: azimuthal orders
+uniform samplerBuffer rays;   // [ray]: first station, their number, mu at the start
+uniform samplerBuffer source; // [station of this dispatch][sun][1 + term][set], from fold()
+uniform int fieldSuns, terms, firstStation; // terms: azimuthal orders
 uniform vec3 sunAxisOfField; // see momentAxis
 
 void main()
 {
     int first = int(gl_GlobalInvocationID.y) + firstRay;
-    Sample s = sampleOfInvocation(texelFetch(rayNodes, first * (nodes + 1)).z);
+    vec4 ray = texelFetch(rays, first);
+    Sample s = sampleOfInvocation(ray.z);
     if (!s.valid)
         return;
-    // Only a ray that meets the ground has a last node there; rayNodes holds a flag in its w.
-    int count = nodes + (texelFetch(rayNodes, s.ray * (nodes + 1) + nodes).w > 0.0 ? FROM_GROUND : 0);
+    int begin = int(ray.x), end = begin + int(ray.y);
 
     vec4 total[SETS];
     for (int q = 0; q < SETS; ++q)
         total[q] = vec4(0.0);
-    for (int k = 0; k < count; ++k) {
-        vec4 node = texelFetch(rayNodes, s.ray * (nodes + 1) + k);
+    for (int k = begin; k < end; ++k) {
+        vec4 node = texelFetch(rayNodes, k);
         float muSun = clamp(node.x * s.muSun + node.y * s.nu, -1.0, 1.0);
         float position = momentAxis(elevationOf(muSun), sunAxisOfField) * float(fieldSuns - 1);
         int sun = min(int(position), fieldSuns - 2);
         float x = position - float(sun);
         float c = azimuthCosine(node.z, muSun, s.nu);
-        int at = ((int(gl_GlobalInvocationID.y) * (nodes + 1) + k) * fieldSuns + sun) * (terms + 1) * totalSets;
+        int at = ((k - firstStation) * fieldSuns + sun) * (terms + 1) * totalSets;
         int next = (terms + 1) * totalSets;
         for (int q = 0; q < SETS; ++q) {
             int set = at + setIndex(q);
