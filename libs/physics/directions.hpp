@@ -19,6 +19,8 @@ struct MomentSettings {
     bool truncatePeaks = true; ///< delta-M scaling
     double tolerance = 2.5e-3; ///< share of the light, rms: all orders are there when an event changes their closed series by less
     int leastAzimuthal = 4;    ///< azimuthal order that all events go up to
+    /// Azimuths for sunlight before it meets phase functions, which vary faster; 0, or more than `azimuths`: as many as those.
+    int lightAzimuths = 0;
     /// Relative error that later events may take on in each gap between the stations of a ray (solver/stations.hpp); 0: none.
     double stationTolerance = 0;
 

@@ -6,6 +6,7 @@
 #include "physics/colour.hpp"
 #include "physics/table_axes.hpp"
 #include "solver/lit_gather.hpp"
+#include "solver/plan.hpp"
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -13,9 +14,6 @@
 namespace sky::solver {
 
 namespace {
-
-/// What a run needs whatever the tables' sizes: driver, medium, moments, one dispatch's sources.
-constexpr std::size_t fixedMemory = std::size_t(130) << 20;
 
 model::Axis sunAxis(const BakeJob& job, int count)
 {
@@ -41,10 +39,8 @@ struct Layer {
     Layer(const BakeJob& job, std::size_t bytesPerTexel)
         : views(job.size.viewZenithAngle), suns(job.size.sunZenithAngle), azimuths(job.size.dotViewSun), viewsAtOnce(views)
     {
-        // A quarter of what the fixed needs leave: results exist on the GPU, in its copy, in the layer they go to, and while that is written.
-        if (const std::size_t most = job.options.maxMemoryBytes)
-            viewsAtOnce = static_cast<int>(std::clamp<std::size_t>(
-                (most - std::min(most, fixedMemory)) / 4 / (std::size_t(suns) * azimuths * bytesPerTexel), 1, views));
+        if (const std::size_t most = resultBytes(job.options))
+            viewsAtOnce = static_cast<int>(std::clamp<std::size_t>(most / (std::size_t(suns) * azimuths * bytesPerTexel), 1, views));
     }
     std::size_t texels(int viewCount) const { return std::size_t(viewCount) * suns * azimuths; }
     Strides strides(int viewCount) const { return {azimuths, viewCount * azimuths, 1}; }

@@ -44,6 +44,15 @@ inline void bindScatterers(gl::Program& program, const Scene& scene, const std::
     }
 }
 
+/// Splits rays among dispatches: act(first ray, how many).
+template<class Action>
+void forChunksOf(int rays, std::size_t visitsPerRay, Action&& act)
+{
+    const int chunk = static_cast<int>(std::clamp<std::size_t>(visitsPerDispatch / visitsPerRay, 1, 4096));
+    for (int first = 0; first < rays; first += chunk)
+        act(first, std::min(chunk, rays - first));
+}
+
 /// Rays of one dispatch, for which `vec4sPerRay` are prepared each.
 inline int raysTogether(const gl::Api& api, const SunSamples& samples, int rays, int nodes, std::size_t vec4sPerRay)
 {

@@ -28,7 +28,7 @@ void EventSeries::add(const Sums& event)
     if (whole_) {
         if (kept_.size() == mostKept)
             kept_.erase(kept_.begin());
-        kept_.push_back(event);
+        kept_.push_back({{event.moments.begin(), event.moments.end()}, {event.irradiance.begin(), event.irradiance.end()}});
     }
     const auto c = factors();
     const std::size_t step = std::size_t(harmonics_) * wavelengths_, points = sum_.moments.size() / step, n = kept_.size();
@@ -38,10 +38,10 @@ void EventSeries::add(const Sums& event)
     for (std::size_t point = 0; point < points; ++point)
         for (int w = 0; w < wavelengths_; ++w) {
             const std::size_t at = point * step + w;
-            beyond(&Sums::moments, at, c.data() + w * n, weights.data());
+            beyond(&Kept::moments, at, c.data() + w * n, weights.data());
             means_.push_back(sum_.moments[at]);
             for (std::size_t k = 0; k < n; ++k)
-                means_.back() += weights[k] * kept_[k].moments[at];
+                means_.back() += weights[k] * double(kept_[k].moments[at]);
         }
     if (then.empty())
         return;
@@ -63,17 +63,17 @@ Sums EventSeries::total() const
     const auto c = factors();
     const std::size_t n = kept_.size();
     std::vector<double> weights(n);
-    const auto close = [&](Part part, int harmonics) {
-        for (std::size_t first = 0; first < (sum_.*part).size(); first += std::size_t(harmonics) * wavelengths_)
+    const auto close = [&](Part part, std::vector<double>& values, int harmonics) {
+        for (std::size_t first = 0; first < values.size(); first += std::size_t(harmonics) * wavelengths_)
             for (int w = 0; w < wavelengths_; ++w) {
                 beyond(part, first + w, c.data() + w * n, weights.data());
                 for (int lm = 0; lm < harmonics; ++lm)
                     for (std::size_t k = 0; k < n; ++k)
-                        (result.*part)[first + lm * wavelengths_ + w] += weights[k] * (kept_[k].*part)[first + lm * wavelengths_ + w];
+                        values[first + lm * wavelengths_ + w] += weights[k] * double((kept_[k].*part)[first + lm * wavelengths_ + w]);
             }
     };
-    close(&Sums::moments, harmonics_);
-    close(&Sums::irradiance, 1);
+    close(&Kept::moments, result.moments, harmonics_);
+    close(&Kept::irradiance, result.irradiance, 1);
     return result;
 }
 
@@ -91,7 +91,7 @@ std::vector<double> EventSeries::factors() const
             if (!(sum_.moments[at] > faintest * brightest))
                 continue;
             for (std::size_t k = 0; k < n; ++k)
-                relative[k] = kept_[k].moments[at] / sum_.moments[at];
+                relative[k] = double(kept_[k].moments[at]) / sum_.moments[at];
             for (std::size_t i = 0; i < n; ++i)
                 for (std::size_t j = 0; j < n; ++j)
                     products[i * n + j] += relative[i] * relative[j];
@@ -108,11 +108,11 @@ void EventSeries::beyond(const Part part, const std::size_t at, const double* co
     double rest = 0;
     for (std::size_t k = 0; k < n; ++k) {
         weights[k] = factors[k] - 1;
-        rest += weights[k] * (kept_[k].*part)[at];
+        rest += weights[k] * double((kept_[k].*part)[at]);
     }
     if (rest >= 0)
         return;
-    const double last = (kept_[n - 1].*part)[at], before = n > 1 ? (kept_[n - 2].*part)[at] : 0;
+    const double last = double((kept_[n - 1].*part)[at]), before = n > 1 ? double((kept_[n - 2].*part)[at]) : 0;
     std::fill(weights, weights + n, 0.);
     weights[n - 1] = last > 0 ? physics::geometricTail(last, before) / last : 0;
 }

@@ -28,7 +28,11 @@ public:
     Sums total() const;
 
 private:
-    using Part = std::vector<double> Sums::*;
+    /// Sums in single precision: they only tell what lies beyond them.
+    struct Kept {
+        std::vector<float> moments, irradiance;
+    };
+    using Part = std::vector<float> Kept::*;
     std::vector<double> factors() const;
     /// Weights of the kept events whose sum lies beyond them, for the mean at `at`: factors minus one, or, where that would take light
     /// away, a geometric tail in the shape of the last event.
@@ -37,7 +41,7 @@ private:
     int harmonics_, wavelengths_;
     bool whole_;
     Sums sum_;
-    std::vector<Sums> kept_;    // the last events
+    std::vector<Kept> kept_;    // the last events
     std::vector<double> means_; // [altitude][sun][wavelength], I_00 of the last answer
     double change_ = 1;
 };

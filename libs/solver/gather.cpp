@@ -3,6 +3,7 @@
 #include "sky_shaders.hpp"
 #include "solver/dispatch.hpp"
 #include <algorithm>
+#include <cmath>
 
 namespace sky::solver {
 
@@ -81,7 +82,24 @@ std::vector<gl::Define> directDefines(const Scene& scene, DirectGather::Purpose 
         defines.push_back({"FIELD", "1"});
     if (purpose == DirectGather::Purpose::groundField)
         defines.push_back({"GROUND_ONLY", "1"});
+    if (purpose == DirectGather::Purpose::fieldLight)
+        defines.push_back({"LIGHT_APART", "1"});
     return defines;
+}
+
+/// [azimuth][azimuth of the light]: from values at few midpoints of 0..pi to many, by the series of cosines through them.
+std::vector<float> azimuthWeights(int from, int to)
+{
+    using base::pi;
+    std::vector<float> weights;
+    for (int k = 0; k < to; ++k)
+        for (int j = 0; j < from; ++j) {
+            double sum = 1;
+            for (int m = 1; m < from; ++m)
+                sum += 2 * std::cos(m * pi * (k + 0.5) / to) * std::cos(m * pi * (j + 0.5) / from);
+            weights.push_back(static_cast<float>(sum / from));
+        }
+    return weights;
 }
 
 } // namespace
@@ -113,21 +131,52 @@ void DirectGather::gather(const DirectRays& rays, const SunSamples& samples, Str
     bindScatterers(program_, scene_, withPhase, rays.count * samples.suns * samples.azimuths);
     results.bindStorage(0);
     const gl::Bound pass(program_);
-    const std::size_t visits = std::size_t(samples.suns) * samples.azimuths * rays.nodes;
-    const int chunk = static_cast<int>(std::clamp<std::size_t>(visitsPerDispatch / visits, 1, 4096));
-    for (int first = 0; first < rays.count; first += chunk) {
+    forChunksOf(rays.count, std::size_t(samples.suns) * samples.azimuths * rays.nodes, [&](int first, int count) {
         breath();
         program_.set("firstRay", first);
         for (int set = 0; set < scene_.sets(); set += setsTogether(scene_)) {
             setSets(program_, scene_, set, luminance_);
-            program_.dispatchOver(static_cast<unsigned>(samples.suns * samples.azimuths),
-                                  static_cast<unsigned>(std::min(chunk, rays.count - first)));
+            program_.dispatchOver(static_cast<unsigned>(samples.suns * samples.azimuths), static_cast<unsigned>(count));
             gl::memoryBarrier(api_);
         }
         api_->Flush();
-    }
+    });
     gl::memoryBarrier(api_);
     gl::checkErrors(api_, "direct gather");
+}
+
+PhaseGather::PhaseGather(const gl::Api& api, const Scene& scene, const int lightAzimuths, const int azimuths)
+    : api_(api), scene_(scene), lightAzimuths_(lightAzimuths),
+      program_(gl::ProgramBuilder(api, shaders::source).compute("phase gather", "solve/phase.comp", definesOf(scene, {}))),
+      phases_(api, "phase functions", phaseTexels(scene, true)),
+      azimuthWeights_(api, "azimuth weights", azimuthWeights(lightAzimuths, azimuths), 1)
+{
+}
+
+void PhaseGather::gather(const DirectRays& rays, const SunSamples& samples, Strides strides, const gl::Buffer& light, gl::Buffer& results,
+                         const Breath& breath)
+{
+    bindSamples(program_, samples, strides, rays.nodes);
+    bind(program_, "rayNodes", 2, rays.rayNodes);
+    bind(program_, "phases", 3, phases_);
+    bind(program_, "azimuthWeights", 4, azimuthWeights_);
+    program_.set("lightAzimuths", lightAzimuths_);
+    program_.set("rays", rays.count);
+    results.bindStorage(0);
+    light.bindStorage(1);
+    const gl::Bound pass(program_);
+    forChunksOf(rays.count, std::size_t(samples.suns) * samples.azimuths * lightAzimuths_, [&](int first, int count) {
+        breath();
+        program_.set("firstRay", first);
+        for (int set = 0; set < scene_.sets(); set += setsTogether(scene_)) {
+            setSets(program_, scene_, set, {});
+            program_.dispatchOver(static_cast<unsigned>(samples.suns * samples.azimuths), static_cast<unsigned>(count));
+            gl::memoryBarrier(api_);
+        }
+        api_->Flush();
+    });
+    gl::memoryBarrier(api_);
+    gl::checkErrors(api_, "phase gather");
 }
 
 ScatteredGather::ScatteredGather(const gl::Api& api, const Scene& scene, const std::vector<std::array<double, 4>>& luminance)

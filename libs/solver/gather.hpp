@@ -35,6 +35,7 @@ class DirectGather
 public:
     enum class Purpose {
         field,       ///< all species together, phase functions cut at the degree, sunlit ground included: starts the iteration
+        fieldLight,  ///< the same without phase functions, each scatterer and then the ground apart: for PhaseGather
         groundField, ///< the sunlit ground alone
         table        ///< each species apart, see gather()
     };
@@ -53,6 +54,26 @@ private:
     gl::Program program_;
     std::vector<std::array<double, 4>> luminance_;
     TexelBuffer sunDepths_, phases_;
+};
+
+/// Light of the first event at many azimuths from sunlight at few (DirectGather::Purpose::fieldLight): solve/phase.comp. Between those it is
+/// a series of cosines, as many as there are.
+class PhaseGather
+{
+public:
+    PhaseGather(const gl::Api& api, const Scene& scene, int lightAzimuths, int azimuths);
+
+    /// Fills `results`: rays x suns x azimuths texels, see DirectGather.
+    ///   light  [scatterer, then ground][ray][sun][azimuth of the light][set]
+    void gather(const DirectRays& rays, const SunSamples& samples, Strides strides, const gl::Buffer& light, gl::Buffer& results,
+                const Breath& breath);
+
+private:
+    gl::Api api_;
+    const Scene scene_;
+    int lightAzimuths_;
+    gl::Program program_;
+    TexelBuffer phases_, azimuthWeights_;
 };
 
 /// Light of later events along rays: fold() and solve/scattered.comp.

@@ -17,36 +17,74 @@ constexpr int mostEvents = 200;
 using physics::harmonicCount;
 using physics::harmonicIndex;
 
+/// Levels whose rays are gathered together: as many as memory allows.
+struct Block {
+    int firstLevel, levels;
+    std::vector<RayStart> starts;
+    std::optional<ScatteredRays> scattered; ///< kept from event to event
+};
+
 class Sweeps
 {
 public:
-    Sweeps(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid, const physics::MomentSettings& settings)
-        : api_(api), scene_(scene), grid_(grid), settings_(settings), starts_(makeStarts()),
-          samples_(api, sunCosines(), azimuthCosines(settings.azimuths)),
-          results_(api, "sweep radiance", starts_.size() * samples_.suns * samples_.azimuths * scene.sets() * 4 * sizeof(float))
+    Sweeps(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid, const physics::MomentSettings& settings,
+           std::size_t blockBytes)
+        : api_(api), scene_(scene), grid_(grid), settings_(settings),
+          lightAzimuths_(settings.lightAzimuths > 0 ? std::min(settings.lightAzimuths, settings.azimuths) : settings.azimuths),
+          samples_(api, sunCosines(), azimuthCosines(settings.azimuths)), lightSamples_(api, sunCosines(), azimuthCosines(lightAzimuths_))
     {
+        makeBlocks(blockBytes);
+        std::size_t rays = 0;
+        for (const Block& block : blocks_)
+            rays = std::max(rays, block.starts.size());
+        results_.emplace(api, "sweep radiance", rays * bytesPerRay(samples_));
+        if (lightApart())
+            light_.emplace(api, "sunlight", rays * (scene.scatterers() + 1) * bytesPerRay(lightSamples_));
     }
 
     enum class First { all, groundOnly };
     Sums direct(First which, const Breath& breath)
     {
-        const DirectRays rays(api_, DirectRayData(scene_, starts_, settings_.directNodes, true));
-        DirectGather gather(api_, scene_, which == First::all ? DirectGather::Purpose::field : DirectGather::Purpose::groundField, {});
-        gather.gather(rays, samples_, stridesOf(samples_), {}, results_, breath);
-        return project(settings_.degree, samples_.azimuths);
+        const bool apart = which == First::all && lightApart();
+        using Purpose = DirectGather::Purpose;
+        DirectGather gather(api_, scene_,
+                            which == First::groundOnly ? Purpose::groundField
+                            : apart                    ? Purpose::fieldLight
+                                                       : Purpose::field,
+                            {});
+        std::optional<PhaseGather> phases;
+        if (apart)
+            phases.emplace(api_, scene_, lightAzimuths_, samples_.azimuths);
+        Sums sums = nothing();
+        for (const Block& block : blocks_) {
+            const DirectRays rays(api_, DirectRayData(scene_, block.starts, settings_.directNodes, true));
+            if (apart) {
+                gather.gather(rays, lightSamples_, stridesOf(lightSamples_), std::vector<bool>(scene_.scatterers() + 1), *light_, breath);
+                phases->gather(rays, samples_, stridesOf(samples_), *light_, *results_, breath);
+            } else
+                gather.gather(rays, samples_, stridesOf(samples_), {}, *results_, breath);
+            project(block, settings_.degree, samples_.azimuths, sums);
+        }
+        return checked(std::move(sums));
     }
 
     /// Light of event `event`, scattered or reflected once more than the field.
     Sums scattered(const physics::Moments& field, int event, const Breath& breath)
     {
-        if (!gather_) {
-            rays_.emplace(api_, scene_, grid_, starts_, ScatteredRaySettings{settings_.nodes, settings_.stationTolerance, true});
+        if (!gather_)
             gather_.emplace(api_, scene_, std::vector<std::array<double, 4>>{});
-        }
         const int azimuthal = physics::azimuthalDegree(scene_.optics, event, settings_.negligibleOrder(), settings_.leastAzimuthal);
         const SunSamples samples(api_, sunCosines(), azimuthCosines(settings_.azimuthsFor(azimuthal)));
-        gather_->gather(*rays_, FoldField(field, sweepRefinement), azimuthal, samples, stridesOf(samples), results_, breath);
-        return project(azimuthal, samples.azimuths);
+        const FoldField foldable(field, sweepRefinement);
+        Sums sums = nothing();
+        for (Block& block : blocks_) {
+            if (!block.scattered)
+                block.scattered.emplace(api_, scene_, grid_, block.starts,
+                                        ScatteredRaySettings{settings_.nodes, settings_.stationTolerance, true});
+            gather_->gather(*block.scattered, foldable, azimuthal, samples, stridesOf(samples), *results_, breath);
+            project(block, azimuthal, samples.azimuths, sums);
+        }
+        return checked(std::move(sums));
     }
 
     physics::Moments toMoments(const Sums& sums) const
@@ -68,17 +106,33 @@ public:
     }
 
 private:
-    std::vector<RayStart> makeStarts()
+    bool lightApart() const { return lightAzimuths_ < settings_.azimuths; }
+
+    std::size_t bytesPerRay(const SunSamples& samples) const
     {
-        std::vector<RayStart> starts;
-        for (const double h : grid_.altitudes()) {
-            firstRay_.push_back(static_cast<int>(starts.size()));
+        return std::size_t(samples.suns) * samples.azimuths * scene_.sets() * 4 * sizeof(float);
+    }
+
+    void makeBlocks(const std::size_t most)
+    {
+        const std::size_t perRay = bytesPerRay(samples_) + (lightApart() ? (scene_.scatterers() + 1) * bytesPerRay(lightSamples_) : 0);
+        for (int a = 0; a < grid_.altitudeCount(); ++a) {
+            const double h = grid_.altitudes()[a];
             directions_.push_back(physics::directionsAt(scene_.profile.planet(), h, settings_));
             const auto& set = directions_.back();
+            if (blocks_.empty() || (most > 0 && (blocks_.back().starts.size() + set.mu.size()) * perRay > most))
+                blocks_.push_back({a, 0, {}, {}});
+            ++blocks_.back().levels;
             for (std::size_t d = 0; d < set.mu.size(); ++d)
-                starts.push_back({h, set.mu[d], set.hitsGround[d]});
+                blocks_.back().starts.push_back({h, set.mu[d], set.hitsGround[d]});
         }
-        return starts;
+    }
+
+    Sums nothing() const
+    {
+        const std::size_t points = std::size_t(grid_.altitudeCount()) * samples_.suns, wavelengths = scene_.optics.wavelengths;
+        return {std::vector<double>(points * harmonicCount(settings_.degree) * wavelengths, 0.),
+                std::vector<double>(points * wavelengths, 0.)};
     }
 
     std::vector<float> sunCosines() const
@@ -101,25 +155,27 @@ private:
 
     /// Moments by quadrature: Gauss-Legendre in mu on each panel, midpoints in azimuth (exact for trigonometric polynomials).
     /// Azimuthal orders above `azimuthal` stay zero.
-    Sums project(const int azimuthal, const int azimuths) const
+    void project(const Block& block, const int azimuthal, const int azimuths, Sums& sums) const
     {
-        const auto radiance = results_.download();
+        const auto radiance = results_->download();
         const int degree = settings_.degree, count = harmonicCount(degree), wavelengths = scene_.optics.wavelengths;
         const int suns = samples_.suns, stride = scene_.sets() * 4;
-        Sums sums{std::vector<double>(std::size_t(grid_.altitudeCount()) * suns * count * wavelengths, 0.),
-                  std::vector<double>(std::size_t(grid_.altitudeCount()) * suns * wavelengths, 0.)};
         std::vector<double> waves(azimuths * (azimuthal + 1));
         for (int k = 0; k < azimuths; ++k)
             for (int m = 0; m <= azimuthal; ++m)
                 waves[k * (azimuthal + 1) + m] = std::cos(m * pi * (k + 0.5) / azimuths) * 2 * pi / azimuths;
         base::parallel([&](int thread, int threads) {
             std::vector<double> factors(count), byAzimuth((azimuthal + 1) * wavelengths);
-            for (int a = thread; a < grid_.altitudeCount(); a += threads) {
+            for (int level = thread; level < block.levels; level += threads) {
+                const int a = block.firstLevel + level;
                 const auto& set = directions_[a];
+                std::size_t firstRay = 0;
+                for (int below = block.firstLevel; below < a; ++below)
+                    firstRay += directions_[below].mu.size();
                 for (std::size_t d = 0; d < set.mu.size(); ++d) {
                     physics::harmonicFactors(degree, set.mu[d], factors.data());
                     for (int j = 0; j < suns; ++j) {
-                        const float* values = &radiance[(std::size_t(firstRay_[a] + d) * suns + j) * azimuths * stride];
+                        const float* values = &radiance[((firstRay + d) * suns + j) * azimuths * stride];
                         std::fill(byAzimuth.begin(), byAzimuth.end(), 0.);
                         for (int k = 0; k < azimuths; ++k)
                             for (int m = 0; m <= azimuthal; ++m)
@@ -139,11 +195,15 @@ private:
                 }
             }
         });
+    }
+
+    Sums checked(Sums sums) const
+    {
+        const std::size_t suns = samples_.suns, count = harmonicCount(settings_.degree), wavelengths = scene_.optics.wavelengths;
         for (std::size_t i = 0; i < sums.moments.size(); ++i)
             if (!std::isfinite(sums.moments[i]))
-                throw NumericsError("moments: the value at altitude level " +
-                                    std::to_string(i / (std::size_t(suns) * count * wavelengths)) + ", Sun " +
-                                    std::to_string(i / (std::size_t(count) * wavelengths) % suns) + ", harmonic " +
+                throw NumericsError("moments: the value at altitude level " + std::to_string(i / (suns * count * wavelengths)) + ", Sun " +
+                                    std::to_string(i / (count * wavelengths) % suns) + ", harmonic " +
                                     std::to_string(i / wavelengths % count) + ", wavelength " + std::to_string(i % wavelengths) +
                                     " is not finite. This is an error of calcmysky or of the "
                                     "OpenGL driver; try another one with --device or --gl.");
@@ -154,26 +214,25 @@ private:
     const Scene scene_;
     const physics::MomentGrid& grid_;
     const physics::MomentSettings& settings_;
-    std::vector<int> firstRay_;
-    std::vector<physics::Directions> directions_;
-    std::vector<RayStart> starts_;
-    SunSamples samples_;
-    gl::Buffer results_;
-    std::optional<ScatteredRays> rays_;
+    const int lightAzimuths_;
+    const SunSamples samples_, lightSamples_;
+    std::vector<physics::Directions> directions_; // [level]
+    std::vector<Block> blocks_;
+    std::optional<gl::Buffer> results_, light_; // of one block
     std::optional<ScatteredGather> gather_;
 };
 
 } // namespace
 
 RadiationField iterate(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid, const physics::MomentSettings& settings,
-                       const OrderLimit& limit, bool keepEvents, const std::function<void(double)>& breath)
+                       const OrderLimit& limit, bool keepEvents, const std::function<void(double)>& breath, std::size_t blockBytes)
 {
     const int wanted = limit.all ? mostEvents : limit.orders - 1;
     const int harmonics = harmonicCount(settings.degree), wavelengths = scene.optics.wavelengths;
     RadiationField field;
     const auto fractionOf = [&](int event) { return limit.all ? 1 - std::pow(0.7, event) : double(event) / std::max(1, wanted); };
 
-    Sweeps sweeps(api, scene, grid, settings);
+    Sweeps sweeps(api, scene, grid, settings, blockBytes);
     if (keepEvents)
         field.firstFromGround = sweeps.toMoments(sweeps.direct(Sweeps::First::groundOnly, [&] { breath(0); }));
     EventSeries series(harmonics, wavelengths, limit.all);

@@ -27,9 +27,10 @@ struct RadiationField {
 
 /// Source iteration for the radiance moments (docs/method): each sweep gathers, for every level, Sun and direction, the light
 /// that the last event's field scatters or reflects into that ray, and projects it onto the harmonics.
+///   blockBytes  of radiances gathered at a time, at least of one level; 0: no bound
 ///   breath  called between dispatches with the fraction of the sweeps done so far
 ///   throws  NumericsError where a value is not finite
 RadiationField iterate(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid, const physics::MomentSettings& settings,
-                       const OrderLimit& limit, bool keepEvents, const std::function<void(double)>& breath);
+                       const OrderLimit& limit, bool keepEvents, const std::function<void(double)>& breath, std::size_t blockBytes = 0);
 
 } // namespace sky::solver

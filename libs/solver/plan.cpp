@@ -166,6 +166,13 @@ std::vector<PlanItem> plan(const atmo::Description& d, const Options& options)
     return items;
 }
 
+std::size_t resultBytes(const Options& options)
+{
+    constexpr std::size_t fixedMemory = std::size_t(130) << 20; // the program, the driver, and what doesn't depend on sizes
+    const std::size_t most = options.maxMemoryBytes;
+    return most > 0 ? std::max<std::size_t>(1, (most - std::min(most, fixedMemory)) / 4) : 0;
+}
+
 std::vector<double> largestExtinctions(const physics::Optics& optics)
 {
     std::vector<double> largest;

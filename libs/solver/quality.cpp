@@ -86,6 +86,7 @@ physics::MomentSettings forPeaks(physics::MomentSettings m)
     m.nodes += 2;
     m.groundDirections += 2;
     m.skyDirections += 2;
+    m.lightAzimuths = m.azimuths;
     m.azimuths = std::max(m.azimuths, m.degree + 2);
     return m;
 }

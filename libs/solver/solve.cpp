@@ -135,7 +135,7 @@ void solve(const atmo::Description& description, const Options& asked, gl::Headl
     if (needs.field) {
         breath = stages.begin("moments", stages.work().moments);
         const OrderLimit limit{std::max(2, description.scatteringOrders), description.allScatteringOrders, orderTolerance(options)};
-        field = iterate(api, scene, grid, quality.moments, limit, needs.everyEvent, breath);
+        field = iterate(api, scene, grid, quality.moments, limit, needs.everyEvent, breath, resultBytes(options));
         manifest.settings["moments.events"] = std::to_string(field.eventCount);
         if (limit.all || options.tolerance)
             manifest.estimatedError["orders left out"] = field.remainder;

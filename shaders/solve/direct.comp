@@ -1,5 +1,6 @@
 // Direct sunlight scattered once along each ray, for each Sun and azimuth:  sum over nodes of w_ki T_sun(node k).
 // FIELD (GROUND_ONLY: its second part): all species together, phase functions cut at DEGREE, and the sunlit ground: what starts the source iteration.
+// FIELD and LIGHT_APART: the same without phase functions, each species and then the ground apart, for phase.comp.
 // Otherwise each species apart, without its phase function or (withPhase) with the exact one.
 #include "solve/rays.glsl"
 #include "lib/sun.glsl"
@@ -7,12 +8,17 @@
 uniform samplerBuffer sunDepths; // [altitude, then the ground with its cosine][elevation][set]: optical depth towards the visible part of the Sun
 uniform samplerBuffer weights;   // [ray][node][scatterer][set]
 uniform samplerBuffer ground;    // [ray][set]: transmittance times albedo / pi
-uniform samplerBuffer phases;    // FIELD: [scatterer][l][set], (2l+1)/(4 pi) lambda_l; else [scatterer][angle][set]
-uniform int elevations, angles;
+uniform int elevations;
 uniform float sunRadius, elevationScale;
-#ifndef FIELD
+#if !defined(FIELD)
+uniform samplerBuffer phases; // [scatterer][angle][set]
+uniform int angles;
 uniform int withPhase[SCATTERERS];
-uniform int resultOffsets[SCATTERERS]; // in texels of the result buffer
+#elif !defined(LIGHT_APART)
+#include "solve/phase_series.glsl"
+#endif
+#if !defined(FIELD) || defined(LIGHT_APART)
+uniform int resultOffsets[SCATTERERS + 1]; // in texels of the result buffer; the last for the ground
 #endif
 
 // Sunlight at a node; `place` is [horizon elevation, inverse range of the elevation axis, table row, fraction of a row].
@@ -60,14 +66,15 @@ void main()
     for (int q = 0; q < SETS; ++q)
         total[q] = vec4(0.0);
     for (int i = 0; i < SCATTERERS; ++i) {
-        float p = 1.0, before = 0.0; // Legendre polynomials P_l(nu), P_(l-1)(nu)
-        for (int l = 0; l <= DEGREE; ++l) {
-            for (int q = 0; q < SETS; ++q)
-                total[q] += p * lit[i * SETS + q] * texelFetch(phases, (i * (DEGREE + 1) + l) * totalSets + setIndex(q));
-            float after = (float(2 * l + 1) * s.nu * p - float(l) * before) / float(l + 1);
-            before = p;
-            p = after;
-        }
+        vec4 one[SETS];
+        for (int q = 0; q < SETS; ++q)
+            one[q] = lit[i * SETS + q];
+#ifdef LIGHT_APART
+        for (int q = 0; q < SETS; ++q)
+            storeSet(resultOffsets[i] + s.texel, q, one[q]);
+#else
+        scatter(i, one, s.nu, total);
+#endif
     }
     vec4 node = texelFetch(rayNodes, first + 2 * nodes);
     if (node.w > 0.0) {
@@ -78,8 +85,13 @@ void main()
         for (int q = 0; q < SETS; ++q)
             total[q] += texelFetch(ground, s.ray * totalSets + setIndex(q)) * cosine * light[q];
     }
+#ifdef LIGHT_APART
+    for (int q = 0; q < SETS; ++q)
+        storeSet(resultOffsets[SCATTERERS] + s.texel, q, total[q]);
+#else
     for (int q = 0; q < SETS; ++q)
         storeSet(s.texel, q, max(total[q], vec4(0.0))); // a cut series may undershoot
+#endif
 #else
     PhasePlace angle = phasePlace(s.nu, angles);
     for (int i = 0; i < SCATTERERS; ++i) {
