@@ -21,7 +21,7 @@ QUICK = [
     ("earth", ["--only", "moments", "--quality", "fine"]),
     ("hazy-city", ["--only", "moments"]),
     ("cloud", ["--only", "moments"]),
-    ("cloud", ["--only", "moments", "--max-memory", "100M"]),
+    ("cloud", ["--only", "moments", "--max-memory", "140M"]),
     ("mars", ["--only", "moments,single", "--altitudes", "0..3"]),
     ("earth-small", ["--skip", "eclipsed"]),
     ("earth-small", ["--skip", "eclipsed", "--radiance"]),

@@ -2,8 +2,10 @@
 
 #include <iostream>
 #include <iterator>
+#include <optional>
 
 #include "atmo/parse.hpp"
+#include "base/error.hpp"
 #include "gl/context.hpp"
 #include "program.hpp"
 #include "solver/medium_tables.hpp"
@@ -22,12 +24,18 @@ int main(int argc, char** argv)
     };
     services.plan = [](const atmo::Description& description, const solver::Options& options, const gl::HeadlessOptions& openGl,
                        solver::Progress& progress) {
-        if (!options.qualityByTolerance)
+        std::optional<gl::HeadlessContext> context;
+        try {
+            context.emplace(openGl);
+        } catch (const GlError& error) {
+            if (options.qualityByTolerance)
+                throw;
+            progress.warning(std::string(error.what()) + " What the air asks for is not known.");
             return solver::plan(description, options);
-        gl::HeadlessContext context(openGl);
+        }
         std::vector<std::string> warnings; // solve() will give them
-        const auto medium = solver::evaluateMedium(description, context.api(), warnings);
-        return solver::plan(description, solver::settled(options, medium, progress));
+        const auto medium = solver::evaluateMedium(description, context->api(), warnings);
+        return solver::plan(description, solver::settled(options, medium, progress), &medium);
     };
     services.solve = [](const atmo::Description& description, const solver::Options& options, const gl::HeadlessOptions& openGl,
                         const std::filesystem::path& outDir, solver::Progress& progress) {

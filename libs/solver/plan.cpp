@@ -1,5 +1,6 @@
 #include "solver/plan.hpp"
 #include "solver/eclipse_table.hpp"
+#include "solver/field_work.hpp"
 #include "solver/light_pollution.hpp"
 #include "solver/quality.hpp"
 #include <algorithm>
@@ -32,6 +33,9 @@ double texels(const atmo::SizeScattering& s, const Options& options)
     const double layers = options.altitudeLayers ? options.altitudeLayers->second - options.altitudeLayers->first + 1 : s.altitude;
     return double(s.viewZenithAngle) * s.dotViewSun * s.sunZenithAngle * layers;
 }
+
+/// 0: all
+int ordersOf(const atmo::Description& d) { return d.allScatteringOrders ? 0 : d.scatteringOrders; }
 
 std::string qualityOf(const Options& options)
 {
@@ -78,7 +82,7 @@ Needs needsOf(const atmo::Description& d, const Options& options)
     return n;
 }
 
-Work workOf(const atmo::Description& d, const Options& options, const Needs& needs)
+Work workOf(const atmo::Description& d, const Options& options, const Needs& needs, const physics::Medium* const medium)
 {
     Work w;
     const double sets = (d.wavelengths.count + 3) / 4, quality = relativeWork(options.quality);
@@ -86,7 +90,7 @@ Work workOf(const atmo::Description& d, const Options& options, const Needs& nee
     w.medium = 0.05;
     w.sunlight = 0.15;
     if (needs.field)
-        w.moments = (0.1 + 0.03 * sets * events) * quality;
+        w.moments = medium ? fieldWorkOf(*medium, options, ordersOf(d)).seconds : (0.1 + 0.03 * sets * events) * quality;
     if (needs.transmittance)
         w.transmittance = 1e-5 * d.transmittanceSize.altitude * d.transmittanceSize.zenithAngle;
     if (needs.irradiance)
@@ -107,10 +111,10 @@ Work workOf(const atmo::Description& d, const Options& options, const Needs& nee
     return w;
 }
 
-std::vector<PlanItem> plan(const atmo::Description& d, const Options& options)
+std::vector<PlanItem> plan(const atmo::Description& d, const Options& options, const physics::Medium* const medium)
 {
     const Needs needs = needsOf(d, options);
-    const Work work = workOf(d, options, needs);
+    const Work work = workOf(d, options, needs, medium);
     const double sets = (d.wavelengths.count + 3) / 4, points = texels(d.scatteringSize, options);
     const double bytes = options.texturePrecisionBits <= 11 ? 2 : 4, compressed = 0.7;
     const auto size = [](double value) { return static_cast<std::size_t>(value); };
@@ -118,9 +122,11 @@ std::vector<PlanItem> plan(const atmo::Description& d, const Options& options)
     const double layer = points / std::max(1, d.scatteringSize.altitude) * 16;
     std::vector<PlanItem> items;
     items.push_back({"medium", true, "densities and phase functions as tables", memory(4e6), size(3e5), work.medium + work.sunlight});
-    if (needs.field)
-        items.push_back({"moments", true, qualityOf(options), memory(5e6 * sets + 4 * 16 * sets * sweepSize(options.quality)),
-                         size(needs.moments ? 1.2e5 * sets : 0), work.moments});
+    if (needs.field) {
+        const FieldWork field = medium ? fieldWorkOf(*medium, options, ordersOf(d)) : FieldWork{work.moments, 8e6 * sets, 1.2e5 * sets};
+        items.push_back(
+            {"moments", true, qualityOf(options), memory(field.bytes), size(needs.moments ? field.diskBytes : 0), field.seconds});
+    }
     if (needs.transmittance)
         items.push_back({"transmittance", true, "", memory(1e6),
                          size(d.transmittanceSize.altitude * d.transmittanceSize.zenithAngle * sets * 16 * compressed),

@@ -25,7 +25,12 @@ struct Work {
                writing;
     }
 };
-Work workOf(const atmo::Description& description, const Options& options, const Needs& needs);
+/// \param medium  as long as it is not known, the moments' time is a guess
+Work workOf(const atmo::Description& description, const Options& options, const Needs& needs, const physics::Medium* medium = nullptr);
+
+/// Bytes of results that may be gathered at a time under --max-memory: a quarter of what the fixed needs leave, since results exist on the
+/// GPU, in its copy, where they go to, and while that is written. 0: no bound.
+std::size_t resultBytes(const Options& options);
 
 /// Bytes of results that may be gathered at a time under --max-memory: a quarter of what the fixed needs leave, since results exist on the
 /// GPU, in its copy, where they go to, and while that is written. 0: no bound.

@@ -176,13 +176,6 @@ Quality qualityFor(const std::string& name, const physics::Medium& medium, const
 
 double relativeWork(const std::string& quality) { return pointNamed(quality).work; }
 
-double sweepSize(const std::string& quality)
-{
-    constexpr double moreLevels = 1.5;                    // which the medium asks for
-    const auto m = forPeaks(pointNamed(quality).moments); // rather too much than too little
-    return moreLevels * m.altitudes * m.suns * m.azimuths * (m.groundDirections + m.limbDirections + m.skyDirections);
-}
-
 Air airOf(const physics::Medium& medium)
 {
     constexpr double thick = 1.2;

@@ -24,9 +24,6 @@ Quality qualityFor(const std::string& name, const physics::Medium& medium, doubl
 /// Time of the moments at this quality, by that of `normal`.
 double relativeWork(const std::string& quality);
 
-/// Radiances that one sweep gathers for one wavelength, as far as they can be told before the air is known: as many as haze takes.
-double sweepSize(const std::string& quality);
-
 /// Kinds of air by what makes them hard, from the easiest on.
 enum class Air {
     Clear,  ///< a phase function of degree 2 or less: molecules

@@ -98,7 +98,7 @@ void solve(const atmo::Description& description, const Options& asked, gl::Headl
 {
     const gl::Api& api = context.api();
     const Needs needs = needsOf(description, asked);
-    Stages stages(progress, workOf(description, asked, needs));
+    Stages stages(progress, workOf(description, asked, needs, nullptr));
     model::ModelWriter writer(outDir);
 
     // 1. The medium as tables.
@@ -109,7 +109,7 @@ void solve(const atmo::Description& description, const Options& asked, gl::Headl
     for (const auto& sentence : warnings)
         progress.warning(sentence);
     const Options options = settled(asked, medium, progress);
-    stages.reestimate(workOf(description, options, needs));
+    stages.reestimate(workOf(description, options, needs, &medium));
     model::Manifest manifest = describe(description, options, medium);
     manifest.lightPollutionRadiance = glow;
     manifest.warnings = warnings;

@@ -15,6 +15,10 @@ namespace sky::gl {
 class HeadlessContext;
 }
 
+namespace sky::physics {
+struct Medium;
+}
+
 namespace sky::solver {
 
 /// Parts of a model that can be asked for or left out.
@@ -84,8 +88,9 @@ struct PlanItem {
     double seconds = 0; ///< estimate
 };
 
-/// What solve() would do with the same arguments. Needs no OpenGL; a quality that is to be picked must be settled() before.
-std::vector<PlanItem> plan(const atmo::Description& description, const Options& options);
+/// What solve() would do with the same arguments. A quality that is to be picked must be settled() before.
+///   medium  from evaluateMedium(); without it, where there is no OpenGL, the moments' time and size are those of the sample Earth
+std::vector<PlanItem> plan(const atmo::Description& description, const Options& options, const physics::Medium* medium = nullptr);
 
 /// Computes the model and puts it into `outDir` in one step at the end: whatever happens before, an old model stays whole.
 ///   throws  Cancelled, AtmoError (the GLSL blocks), GlError, NumericsError, FileError

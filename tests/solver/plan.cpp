@@ -1,4 +1,5 @@
 // What a run says before it begins: what it skips and why, and how much it will take.
+#include "solver/medium_tables.hpp"
 #include "solver/plan.hpp"
 #include "support.hpp"
 
@@ -115,6 +116,33 @@ TEST_CASE("plan: more work takes more of everything")
     options.saveAccumulatedScattering = true;
     CHECK(workOf(scene.parse(), options, needsOf(scene.parse(), options)).total() >
           workOf(scene.parse(), draft(), needsOf(scene.parse(), draft())).total());
+}
+
+TEST_CASE("plan: what the air asks for is known once its blocks have run", "[gl]")
+{
+    auto context = gl::testing::context();
+    if (!context)
+        return;
+    const auto momentsOf = [&](const SceneText& scene, Options options = draft()) {
+        std::vector<std::string> warnings;
+        const auto medium = evaluateMedium(scene.parse(), context->api(), warnings);
+        for (const auto& item : plan(scene.parse(), options, &medium))
+            if (item.what == "moments")
+                return item;
+        return PlanItem{};
+    };
+    SceneText clear, cloud;
+    clear.orders = cloud.orders = "all";
+    const std::string henyeyGreenstein = "vec4((1.0-0.64)/(4.0*PI)*pow(1.64-1.6*dotViewSun,-1.5))";
+    cloud.species +=
+        SceneText::scatterer("cloud", "altitude < 2.0*km && altitude > 1.0*km ? 1e8 : 0.0", henyeyGreenstein, "smooth", "100 um^2");
+    const auto thin = momentsOf(clear), thick = momentsOf(cloud);
+    CHECK(thick.memoryBytes > thin.memoryBytes);
+    CHECK(thick.diskBytes > 5 * thin.diskBytes);
+    CHECK(thick.seconds > 2 * thin.seconds);
+    Options options = draft();
+    options.maxMemoryBytes = 1;
+    CHECK(momentsOf(cloud, options).memoryBytes < thick.memoryBytes);
 }
 
 TEST_CASE("plan: the size on disk is estimated to within a factor of three", "[gl]")
