@@ -79,18 +79,6 @@ bool truncatesPeaks(const physics::Medium& medium, const int degree)
     return std::any_of(optics.truncation.begin(), optics.truncation.end(), [](double f) { return f > 0; });
 }
 
-/// A peak worth truncating is worth more harmonics, directions that resolve them, and nodes where light dims along the ray.
-physics::MomentSettings forPeaks(physics::MomentSettings m)
-{
-    m.degree = std::max(14, 2 * m.degree);
-    m.nodes += 2;
-    m.groundDirections += 2;
-    m.skyDirections += 2;
-    m.lightAzimuths = m.azimuths;
-    m.azimuths = std::max(m.azimuths, m.degree + 2);
-    return m;
-}
-
 /// Vertical optical depth of scattering, the mean over wavelengths.
 double scatteringDepth(const physics::Medium& medium)
 {
@@ -149,6 +137,33 @@ int neededDegree(const physics::Medium& medium, int most, double tolerance)
     return needed;
 }
 
+/// Vertical optical depth of scattering above which air is dense: most light is scattered more than once.
+constexpr double thick = 1.2;
+
+/// A peak worth truncating is worth more harmonics, directions that resolve them, and nodes where light dims along the ray. Most harmonics in
+/// haze: the aureole of light scattered twice is cut with the peak, and a cloud washes it out.
+physics::MomentSettings forPeaks(physics::MomentSettings m, const bool dense)
+{
+    m.degree = std::max(dense ? 14 : 18, 2 * m.degree);
+    m.nodes += 2;
+    m.groundDirections += 2;
+    m.skyDirections += 2;
+    m.lightAzimuths = m.azimuths;
+    m.azimuths = std::max(m.azimuths, m.degree + 2);
+    return m;
+}
+
+/// What air asks for beyond the point of the front.
+physics::MomentSettings forAir(physics::MomentSettings m, const physics::Medium& medium)
+{
+    const bool dense = scatteringDepth(medium) > thick;
+    if (truncatesPeaks(medium, m.degree))
+        return forPeaks(m, dense);
+    if (dense) // the field changes along a ray as light dims
+        m.nodes += m.nodes / 2;
+    return m;
+}
+
 } // namespace
 
 const std::vector<std::string>& qualityNames()
@@ -165,9 +180,7 @@ const std::vector<std::string>& qualityNames()
 Quality qualityFor(const std::string& name, const physics::Medium& medium, const double tolerance)
 {
     const Point& point = pointNamed(name);
-    Quality q{point.moments, point.bake};
-    if (truncatesPeaks(medium, q.moments.degree))
-        q.moments = forPeaks(q.moments);
+    Quality q{forAir(point.moments, medium), point.bake};
     q.moments.degree = neededDegree(medium, q.moments.degree, tolerance);
     // Less than a tenth of what each quality errs by (docs/method 5).
     q.bake.stationTolerance = q.moments.stationTolerance = 0.3 * q.moments.tolerance;
@@ -178,7 +191,6 @@ double relativeWork(const std::string& quality) { return pointNamed(quality).wor
 
 Air airOf(const physics::Medium& medium)
 {
-    constexpr double thick = 1.2;
     const bool dense = scatteringDepth(medium) > thick;
     const int degree = pointNamed("normal").moments.degree;
     if (truncatesPeaks(medium, degree))
