@@ -112,7 +112,7 @@ private:
         reporter->finished();
         for (std::size_t i = 0; i < rows.size(); ++i) {
             rows[i].judged = judged[i];
-            if (!(judged[i].total() > 0))
+            if (!(judged[i].total() > darkest))
                 ++v.darkRows;
             else if (relativeNoise(judged[i]) > unsureNoise)
                 ++v.unsureRows;

@@ -22,6 +22,10 @@ struct JudgeSettings {
 std::vector<montecarlo::Result> judge(const montecarlo::Reference& reference, const std::vector<montecarlo::Query>& queries,
                                       const JudgeSettings& settings, const std::function<void(double)>& progress);
 
+/// Radiance per unit solar irradiance, 1/sr, that nobody sees: a millionth of what the Earth's sky has in late twilight. Relative errors of less
+/// say nothing.
+constexpr double darkest = 1e-14;
+
 /// Standard error of a result's single + multiple, relative to it; infinite where there is no light.
 double relativeNoise(const montecarlo::Result& result);
 

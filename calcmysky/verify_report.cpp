@@ -98,7 +98,7 @@ void printTable(const Verification& v, std::ostream& to)
         to << sun << "       all   " << numbersOf(cellOf(v, regime, -1)) << "\n";
     }
     if (v.darkRows > 0)
-        to << "\nWithout any light in the reference, and left out: " << v.darkRows << " samples.\n";
+        to << "\nAll but without light in the reference, and left out: " << v.darkRows << " samples.\n";
     if (v.unsureRows > 0)
         to << "\nThe reference stayed above " << number(100 * unsureNoise, 0, 0) << " % noise, and was not used: " << v.unsureRows
            << " samples. Give it more --seconds.\n";

@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "montecarlo/estimate.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <sstream>
@@ -151,7 +152,9 @@ Result Reference::radiance(const Query& query, const Settings& settings) const
     const Air& medium = air(query.wavelength);
     Leg leg;
     medium.profile().trace(rayFrom(medium_.planetRadius, scene->camera, scene->view), leg);
-    const Integral single = singleScattering(medium, *scene, leg);
+    constexpr double enough = 1; // s, which nearly all integrals end in
+    const double limit = settings.maxSeconds > 0 ? std::max(enough, settings.maxSeconds) : 0;
+    const Integral single = singleScattering(medium, *scene, leg, limit);
     result.single = single.value;
     result.singleStderr = single.error;
     result.groundDirect = groundDirect(medium, *scene, leg);

@@ -1,6 +1,7 @@
 #include "montecarlo/single.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numbers>
 
@@ -8,7 +9,8 @@ namespace sky::montecarlo {
 namespace {
 
 constexpr double halvingTolerance = 2e-5;
-constexpr int mostHalvings = 4; // each costs a factor of 4 to 8
+constexpr int mostHalvings = 4;
+constexpr double costOfHalving = 6; // each takes 4 to 8 times as long as the one before
 
 double integrate(const Air& air, const Scene& scene, const Leg& leg, int halvings)
 {
@@ -42,13 +44,17 @@ double integrate(const Air& air, const Scene& scene, const Leg& leg, int halving
 
 } // namespace
 
-Integral singleScattering(const Air& air, const Scene& scene, const Leg& leg)
+Integral singleScattering(const Air& air, const Scene& scene, const Leg& leg, const double maxSeconds)
 {
+    using Clock = std::chrono::steady_clock;
+    const auto start = Clock::now();
     Integral result{integrate(air, scene, leg, 0), 0};
     for (int halvings = 1; halvings <= mostHalvings; ++halvings) {
         const double finer = integrate(air, scene, leg, halvings);
         result = {finer, std::abs(finer - result.value)};
         if (result.error <= halvingTolerance * finer)
+            break;
+        if (maxSeconds > 0 && costOfHalving * std::chrono::duration<double>(Clock::now() - start).count() > maxSeconds)
             break;
     }
     return result;

@@ -30,8 +30,9 @@ double averageSun(const Scene& scene, double planetRadius, const Place& place, c
 }
 
 /// Radiance of sunlight scattered exactly once in the air, per unit solar irradiance, 1/sr.
-///   error   below 5e-5 relative, or what Integral::error says where the shadow's edge defeats the steps
-Integral singleScattering(const Air& air, const Scene& scene, const Leg& leg);
+///   maxSeconds  no halving begins that would end later, as far as the last one tells; 0: no limit
+///   error       below 5e-5 relative, or what Integral::error says where the shadow's edge defeats the steps, or time
+Integral singleScattering(const Air& air, const Scene& scene, const Leg& leg, double maxSeconds = 0);
 
 /// Radiance of the ground in direct view, lit by direct sunlight only, dimmed by the air in between, 1/sr.
 /// 0 if the ray misses the ground.

@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace sky::physics {
 
@@ -112,5 +113,58 @@ public:
 private:
     NodeShares per_;
 };
+
+/// What of a cell lies between a node and the next.
+struct CellPart {
+    int cell, node;
+    float begin, end;     ///< 0..1 of the cell
+    float offset, length; ///< where the cell begins after the node, and how long it is, in gaps between the two nodes
+};
+
+/// Cuts the cells at the nodes, in order.
+///   bounds  [cells + 1], m, along the ray     nodes  [2 or more], m, not decreasing, from the first bound to the last
+inline void cutAtNodes(const std::vector<double>& bounds, const std::vector<double>& nodes, std::vector<CellPart>& parts)
+{
+    parts.clear();
+    int k = 0;
+    for (std::size_t c = 0; c + 1 < bounds.size(); ++c) {
+        const double from = bounds[c], length = bounds[c + 1] - from;
+        for (float begin = 0; begin < 1; ++k) {
+            const bool last = k + 2 >= static_cast<int>(nodes.size());
+            const float end = last ? 1.f : static_cast<float>(std::clamp((nodes[k + 1] - from) / length, 0., 1.));
+            const double gap = nodes[k + 1] - nodes[k];
+            if (end > begin)
+                parts.push_back({static_cast<int>(c), k, begin, end, gap > 0 ? static_cast<float>((from - nodes[k]) / gap) : 0.f,
+                                 gap > 0 ? static_cast<float>(length / gap) : 0.f});
+            begin = std::max(begin, end);
+            if (begin >= 1)
+                break;
+        }
+    }
+}
+
+/// Light of a cell that comes from a part of it: 1 is that of the cell.
+template<class T>
+struct LightOfPart {
+    T share;
+    T far; ///< of that, what counts for the node after the part; the rest is for the one before
+};
+
+/// The light of a cell with a given centre (0..1 of the cell), taken as linear along it. Were all of it put at the centre, nodes that are closer
+/// than cells would get light by turns.
+///   slope  6 (centre - 1/2), but no steeper than -1 or 1: more would be negative at one end
+///   Scalar  float or double; T: such a number, or a vector of them
+template<class Scalar, class T>
+LightOfPart<T> lightOf(const CellPart& part, const T& centre, const T& slope)
+{
+    const Scalar offset = part.offset, scale = part.length;
+    if (part.begin <= 0 && part.end >= 1)
+        return {0 * centre + 1, offset + scale * centre};
+    const Scalar begin = part.begin, end = part.end, half = Scalar(0.5);
+    const Scalar length = end - begin, middle = half * (begin + end), square = (begin * begin + begin * end + end * end) / 3; // mean of x^2
+    const T share = length * (1 + slope * (2 * middle - 1));
+    const T moment = length * (middle + slope * (2 * square - middle)) + share * (centre - half - slope / 6);
+    return {share, offset * share + scale * moment};
+}
 
 } // namespace sky::physics

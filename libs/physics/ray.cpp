@@ -17,7 +17,7 @@ RayTracer::RayTracer(const Profile& profile, const Optics& optics, const double 
     }
 }
 
-void RayTracer::walk(const double h, const double mu, const bool hitsGround, const double deepest)
+void RayTracer::walk(const double h, const double mu, const bool hitsGround, const CellLimits& limits, const double deepest)
 {
     const auto& p = profile_.planet();
     const auto& shells = profile_.shells();
@@ -69,7 +69,7 @@ void RayTracer::walk(const double h, const double mu, const bool hitsGround, con
                 stretch.depth += n[s] * maxExtinction_[s] * (s1 - s0);
                 stretch.near += m[s] * maxExtinction_[s] * (s1 - s0);
             }
-            const CellDivision division = divided(stretch, limits_);
+            const CellDivision division = divided(stretch, limits);
             const int cells = division.count();
             for (int c = 1; c <= cells; ++c) {
                 const double a = bounds_.back(), b = c == cells ? s1 : division.end(c);
@@ -100,13 +100,15 @@ void RayTracer::walk(const double h, const double mu, const bool hitsGround, con
 
 RayCells RayTracer::cells(const double altitude, const double mu, const bool hits, const double deepest)
 {
-    walk(altitude, mu, hits, deepest);
+    walk(altitude, mu, hits, limits_, deepest);
     return {altitude, mu, hits, bounds_, altitudes_, columns_, centres_};
 }
 
 void RayTracer::columns(const double altitude, const double mu, double* const result, const double deepest)
 {
-    walk(altitude, mu, false, deepest);
+    CellLimits limits = limits_;
+    limits.depth = std::numeric_limits<double>::infinity(); // nobody looks into a cell
+    walk(altitude, mu, false, limits, deepest);
     const int species = profile_.speciesCount();
     std::fill(result, result + species, 0.);
     for (size_t i = 0; i < columns_.size(); ++i)
@@ -115,7 +117,7 @@ void RayTracer::columns(const double altitude, const double mu, double* const re
 
 SeenColumns RayTracer::seen(const double altitude, const double mu, const bool hits)
 {
-    walk(altitude, mu, hits);
+    walk(altitude, mu, hits, limits_);
     const int wavelengths = optics_.wavelengths, species = optics_.species;
     const int cells = static_cast<int>(bounds_.size()) - 1, scatterers = static_cast<int>(optics_.scatterers.size());
     SeenColumns result{bounds_, std::vector<double>(size_t(cells + 1) * scatterers * wavelengths, 0.), {}, {}};
@@ -146,7 +148,7 @@ SeenColumns RayTracer::seen(const double altitude, const double mu, const bool h
 
 RayNodes RayTracer::trace(const double altitude, const double mu, const int count, const bool hits, const NodesFor nodesFor)
 {
-    walk(altitude, mu, hits);
+    walk(altitude, mu, hits, limits_);
     const auto& p = profile_.planet();
     const double r = p.radius + altitude;
     const int wavelengths = optics_.wavelengths, species = optics_.species;
@@ -207,26 +209,22 @@ RayNodes RayTracer::trace(const double altitude, const double mu, const int coun
     for (const double s : position)
         result.nodes.push_back(nodeAt(s));
     result.weights.assign(count * scatterers * wavelengths, 0.);
-    for (int c = 0, k = 0; c < cells; ++c) {
-        const double middle = 0.5 * (bounds_[c] + bounds_[c + 1]);
-        while (k + 2 < count && position[k + 1] < middle)
-            ++k;
-        const double gap = position[k + 1] - position[k];
+    cutAtNodes(bounds_, position, parts_);
+    for (const CellPart& part : parts_)
         for (int i = 0; i < scatterers; ++i) {
-            const int s = optics_.scatterers[i];
+            const int c = part.cell, s = optics_.scatterers[i];
             const double column = columns_[c * species + s];
-            double* near = &result.weights[(k * scatterers + i) * wavelengths];
-            double* far = &result.weights[((k + 1) * scatterers + i) * wavelengths];
+            double* near = &result.weights[(part.node * scatterers + i) * wavelengths];
+            double* far = near + scatterers * wavelengths;
             for (int w = 0; w < wavelengths; ++w) {
                 const double weight = column * optics_.scattering[s * wavelengths + w] * seen[c * wavelengths + w];
-                const double centre = centres_[c * species + s] + shift[size_t(c) * wavelengths + w];
-                const double at = bounds_[c] + std::clamp(centre, 0., 1.) * (bounds_[c + 1] - bounds_[c]);
-                const double x = gap > 0 ? std::clamp((at - position[k]) / gap, 0., 1.) : 0.;
-                near[w] += (1 - x) * weight;
-                far[w] += x * weight;
+                const double centre = std::clamp(centres_[c * species + s] + shift[size_t(c) * wavelengths + w], 0., 1.);
+                const auto light = lightOf<double>(part, centre, std::clamp(6 * centre - 3, -1., 1.));
+                const double beyond = std::clamp(light.far, 0., light.share);
+                near[w] += (light.share - beyond) * weight;
+                far[w] += beyond * weight;
             }
         }
-    }
     result.hitsGround = hits;
     result.ground = nodeAt(length);
     result.groundTransmittance.assign(wavelengths, 0.);

@@ -70,14 +70,16 @@ public:
     void columns(double altitude, double mu, double* result, double deepest = std::numeric_limits<double>::infinity());
 
 private:
-    void walk(double altitude, double mu, bool hitsGround, double deepest = std::numeric_limits<double>::infinity());
+    void walk(double altitude, double mu, bool hitsGround, const CellLimits& limits,
+              double deepest = std::numeric_limits<double>::infinity());
 
     const Profile& profile_;
     const Optics& optics_;
     CellLimits limits_;
-    std::vector<double> bounds_;                        // [cells + 1], distances
-    std::vector<double> columns_;                       // [cells][species]
-    std::vector<double> centres_;                       // [cells][species], centre of mass along the cell, 0..1
+    std::vector<double> bounds_;  // [cells + 1], distances
+    std::vector<double> columns_; // [cells][species]
+    std::vector<double> centres_; // [cells][species], centre of mass along the cell, 0..1
+    std::vector<CellPart> parts_;
     std::vector<double> altitudes_;                     // [cells + 1]
     std::vector<double> maxExtinction_, minExtinction_; // [species]
 };

@@ -64,7 +64,9 @@ std::vector<double> tableAltitudes(const Profile& profile, const Optics& optics,
     for (size_t k = 0; k + 1 < shells.size(); ++k)
         if (shells[k + 1] - shells[k] < narrow) {
             all.push_back(shells[k]);
-            all.push_back(shells[k + 1]);
+            while (k + 1 < shells.size() && shells[k + 1] - shells[k] < narrow) // where a density goes to zero there may be hundreds
+                ++k;
+            all.push_back(shells[k]);
         }
     std::sort(all.begin(), all.end());
     all.erase(std::unique(all.begin(), all.end()), all.end());
@@ -214,7 +216,7 @@ void sunOnSurface(const Profile& profile, const Optics& optics, const double sun
     // At elevation centre + radius cos t the chord is 2 radius sin t; over the disc's area: 2 / pi sin^2 t dt.
     const double lowest = point ? 0 : std::acos(std::clamp(-elevation / sunAngularRadius, -1., 1.));
     const auto rule = gaussLegendre(heights, 0, lowest);
-    RayTracer tracer(profile, optics);
+    RayTracer tracer(profile, optics, 2);
     std::vector<double> columns(optics.species);
     for (int i = 0; i < heights; ++i) {
         const double t = rule.nodes[i], sine = std::sin(point ? elevation : elevation + sunAngularRadius * std::cos(t));

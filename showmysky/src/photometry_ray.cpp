@@ -56,15 +56,9 @@ void foldCells(const CellLoop& loop)
     }
 }
 
-/// Where the cells stand between the nodes.
-struct Places {
-    const int* node;            ///< [cells], never decreasing
-    const float *from, *length; ///< [cells], begin and length of the cell in gaps between the nodes
-};
-
 /// Shares out the cells among the nodes: hat functions between neighbours, as physics::RayTracer::trace.
 SKY_WIDEST_VECTORS
-void foldWeights(const CellLoop& loop, const Places& places, int nodes, Block* weights)
+void foldWeights(const CellLoop& loop, const std::vector<physics::CellPart>& parts, int nodes, Block* weights)
 {
     const int stride = loop.scatterers * loop.blocks;
     std::fill(weights, weights + nodes * stride, Block{all(0)});
@@ -72,22 +66,25 @@ void foldWeights(const CellLoop& loop, const Places& places, int nodes, Block* w
         for (int b = 0; b < loop.blocks; ++b) {
             const Lanes sigma = loop.scattering[i * loop.blocks + b].v;
             const float* column = loop.columns + loop.scatterer[i];
-            const float* centre = loop.centres + loop.scatterer[i];
-            for (int c = 0; c < loop.cells;) {
-                const int node = places.node[c];
-                Lanes whole = all(0), far = all(0);
-                for (; c < loop.cells && places.node[c] == node; ++c) {
-                    const Lanes light = column[c * loop.species] * loop.seen[c * loop.blocks + b].v;
-                    Lanes x = centre[c * loop.species] + loop.shift[c * loop.blocks + b].v;
-                    x = x < 0.f ? all(0) : (x > 1.f ? all(1) : x);
-                    x = places.from[c] + places.length[c] * x;
-                    x = x < 0.f ? all(0) : (x > 1.f ? all(1) : x);
-                    whole += light;
-                    far += x * light;
+            const float* centres = loop.centres + loop.scatterer[i];
+            for (auto part = parts.begin(); part != parts.end();) {
+                const int node = part->node;
+                Lanes whole = all(0), beyond = all(0);
+                for (; part != parts.end() && part->node == node; ++part) {
+                    const int c = part->cell;
+                    Lanes centre = centres[c * loop.species] + loop.shift[c * loop.blocks + b].v;
+                    centre = centre < 0.f ? all(0) : (centre > 1.f ? all(1) : centre);
+                    Lanes slope = 6 * centre - 3;
+                    slope = slope < -1.f ? all(-1) : (slope > 1.f ? all(1) : slope);
+                    const auto light = physics::lightOf<float>(*part, centre, slope);
+                    const Lanes far = light.far < 0.f ? all(0) : (light.far > light.share ? light.share : light.far);
+                    const Lanes seen = column[c * loop.species] * loop.seen[c * loop.blocks + b].v;
+                    whole += light.share * seen;
+                    beyond += far * seen;
                 }
                 Block* near = weights + node * stride + i * loop.blocks + b;
-                near->v += (whole - far) * sigma;
-                near[stride].v += far * sigma;
+                near->v += (whole - beyond) * sigma;
+                near[stride].v += beyond * sigma;
             }
         }
 }
@@ -252,18 +249,7 @@ void RayFolder::placeNodes(FastRay& ray, const int nodes, const physics::NodeMea
         set.nodes.push_back({h, r / rNode, s / rNode, std::clamp((r * ray.mu + s) / rNode, -1., 1.)});
     }
     set.weights.resize(static_cast<std::size_t>(nodes) * scatterers_.size() * blocks_, Block{all(0)});
-    ray.place.resize(ray.cells);
-    ray.placeFrom.resize(ray.cells);
-    ray.placeLength.resize(ray.cells);
-    for (int c = 0, k = 0; c < ray.cells; ++c) {
-        const double middle = 0.5 * (ray.bounds[c] + ray.bounds[c + 1]);
-        while (k + 2 < nodes && ray.position[k + 1] < middle)
-            ++k;
-        const double gap = ray.position[k + 1] - ray.position[k];
-        ray.place[c] = k;
-        ray.placeFrom[c] = gap > 0 ? static_cast<float>((ray.bounds[c] - ray.position[k]) / gap) : 0.f;
-        ray.placeLength[c] = gap > 0 ? static_cast<float>((ray.bounds[c + 1] - ray.bounds[c]) / gap) : 0.f;
-    }
+    physics::cutAtNodes(ray.bounds, ray.position, ray.parts);
 }
 
 void RayFolder::trace(const double altitude, const double mu, FastRay& ray) const
@@ -299,7 +285,7 @@ void RayFolder::trace(const double altitude, const double mu, FastRay& ray) cons
     }
     const auto place = [&](int nodes, physics::NodesFor nodesFor, NodeSet& set) {
         placeNodes(ray, nodes, physics::NodeMeasure(whole, nodesFor), set);
-        foldWeights(loop, {ray.place.data(), ray.placeFrom.data(), ray.placeLength.data()}, nodes, set.weights.data());
+        foldWeights(loop, ray.parts, nodes, set.weights.data());
     };
     place(effort_.singleNodes, physics::NodesFor::Sunlight, ray.single);
     place(effort_.multipleNodes, physics::NodesFor::Field, ray.multiple);

@@ -11,7 +11,7 @@ namespace showmysky {
 
 /// How much work a question may cost. The default holds 0.1 % by day, also in haze (tests/showmysky/photometry.cpp, photometry_haze.cpp).
 struct Effort {
-    int singleNodes = 72;   ///< along a ray, for the direct light
+    int singleNodes = 80;   ///< along a ray, for the direct light
     int multipleNodes = 20; ///< for the field
     sky::physics::CellLimits cell{1, 0.12, 0.5};
     double profileTolerance = 1e-3; ///< relative, of densities
@@ -45,8 +45,7 @@ struct FastRay {
     lanes::Blocks seen, shift;                       ///< [cells][block], mean transmittance; how attenuation moves the centre of light
     std::vector<sky::physics::NodeShares> shares;    ///< [cells]
     std::vector<double> measure, position;
-    std::vector<int> place;                    ///< [cells], node before the cell
-    std::vector<float> placeFrom, placeLength; ///< [cells], in gaps between nodes
+    std::vector<sky::physics::CellPart> parts;
 };
 
 /// Traces rays through one medium. Const functions are thread-safe.
