@@ -18,6 +18,9 @@ constexpr double unevenness = 0.25;
 constexpr double levelOpticalDepth = 0.3;
 /// So many times more of them in an interval with an edge.
 constexpr double edgeCrowding = 1.25;
+/// The same along a grazing ray, of what is not exponential in altitude: a thin layer high up is thick for a setting Sun. No light grazes
+/// through more than the thickest.
+constexpr double levelUnevenDepth = 0.4, thickest = 1.6;
 
 /// Beyond, days would be coarse for the sake of a sunset that lasts seconds.
 constexpr double mostSunScale = 8;
@@ -59,6 +62,17 @@ MomentGrid::MomentGrid(const Profile& profile, const std::vector<double>& larges
         const int k = profile.intervalAt(altitude);
         return depth[k] + depthInShell(profile, largestExtinction, k, altitude);
     };
+    // Optical depth of a grazing ray between two levels, as far as extinction there is not exponential: what a level between them would see.
+    const auto unevenDepth = [&](double low, double high) {
+        const double a = extinctionAt(profile.intervalAt(low), low), b = extinctionAt(profile.intervalAt(high), high);
+        double most = 0;
+        for (int q = 1; q < 8; ++q) {
+            const double x = q / 8., h = low + (high - low) * x, even = a > 0 && b > 0 ? a * std::pow(b / a, x) : a + (b - a) * x;
+            most = std::max(most, std::abs(extinctionAt(profile.intervalAt(h), h) - even));
+        }
+        const double far = horizonDistance(planet_, high), near = horizonDistance(planet_, low);
+        return most * std::sqrt((far - near) * (far + near));
+    };
     for (size_t k = 1; k + 1 < shells.size(); ++k) {
         const double below = extinctionAt(static_cast<int>(k) - 1, shells[k]), above = extinctionAt(static_cast<int>(k), shells[k]);
         const bool steep =
@@ -78,7 +92,9 @@ MomentGrid::MomentGrid(const Profile& profile, const std::vector<double>& larges
         // angles do.
         const bool edgeBelow = last == 0 || isJump(last), edgeAbove = isJump(level);
         const double density = edgeBelow || edgeAbove ? edgeCrowding / levelOpticalDepth : 1 / levelOpticalDepth;
-        const int extra = std::min(63, static_cast<int>((depthAt(level) - depthAt(last)) * density));
+        const int forShape =
+            edgeBelow || edgeAbove ? 0 : static_cast<int>(std::sqrt(std::min(unevenDepth(last, level), thickest) / levelUnevenDepth));
+        const int extra = std::clamp(static_cast<int>((depthAt(level) - depthAt(last)) * density), forShape, 63);
         for (int i = 1; i <= extra; ++i) {
             const double even = static_cast<double>(i) / (extra + 1);
             const double share = edgeBelow && edgeAbove ? 0.5 - 0.5 * std::cos(pi * even)

@@ -210,6 +210,30 @@ TEST_CASE("grid of the moments: levels follow haze whose profile has no nodes of
     CHECK(depthBetween(0) < 0.25);
 }
 
+TEST_CASE("grid of the moments: a thin layer high up has levels of its own, as far as a setting Sun sees it")
+{
+    const auto levelsWith = [](double depth) {
+        Medium medium = sky::test::flatLayer(1, 1, 0.3, [](double) { return 1 / (4 * pi); });
+        medium.planetRadius = 6.371e6;
+        medium.topOfAtmosphere = 100e3;
+        medium.altitudes.clear();
+        auto& species = medium.species.front();
+        species.numberDensity.clear();
+        species.extinctionCrossSection = {1};
+        for (int i = 0; i <= 1000; ++i) {
+            const double h = 100. * i, z = (h - 25e3) / 5e3;
+            medium.altitudes.push_back(h);
+            species.numberDensity.push_back(0.1 / 8e3 * std::exp(-h / 8e3) + depth / (5e3 * std::sqrt(pi)) * std::exp(-z * z));
+        }
+        const MomentGrid grid(Profile(medium), {1}, 14, 28, 0.0046);
+        return std::count_if(grid.altitudes().begin(), grid.altitudes().end(), [](double h) { return h > 10e3 && h < 40e3; });
+    };
+    const auto without = levelsWith(0);
+    CHECK(levelsWith(1e-3) == without);
+    CHECK(levelsWith(0.3) > without);
+    CHECK(levelsWith(1) >= without + 4);
+}
+
 TEST_CASE("stencils over altitude: at the ground a field even in the measure has no slope")
 {
     const Profile profile(sky::test::haze(1.25));
