@@ -1,11 +1,11 @@
 #include "physics/sun.hpp"
 #include "base/angles.hpp"
+#include "base/parallel.hpp"
 #include "physics/quadrature.hpp"
 #include "physics/ray.hpp"
 #include "physics/table_axes.hpp"
 #include <algorithm>
 #include <cmath>
-#include <thread>
 
 namespace sky::physics {
 
@@ -87,7 +87,7 @@ std::vector<double> tableAltitudes(const Profile& profile, const Optics& optics,
 } // namespace
 
 SunTable::SunTable(const Profile& profile, const Optics& optics, const double sunAngularRadius, const int altitudeCount,
-                   const int elevations, const int threadCount)
+                   const int elevations, const base::StopRequest& stop)
     : planet_(profile.planet()), sunRadius_(sunAngularRadius), scale_(scaleFor(profile, optics, sunAngularRadius)),
       elevations_(static_cast<int>(std::lround(elevations * axisLength(scale_, pi / 2) / axisLength(usualScale, pi / 2)))),
       wavelengths_(optics.wavelengths), altitudes_(tableAltitudes(profile, optics, altitudeCount)),
@@ -102,6 +102,7 @@ SunTable::SunTable(const Profile& profile, const Optics& optics, const double su
         const double h = onGround ? 0 : altitudes_[row], horizon = horizonElevation(planet_, h);
         const double range = pi / 2 - horizon + sunRadius_;
         for (int k = 0; k < elevations_; ++k) {
+            base::stopIfAsked(stop);
             const double x = scale_ * std::sinh(axisLength(scale_, range) * k / (elevations_ - 1));
             const double above = x - sunRadius_; // of the Sun's centre above the horizon
             double* result = &depth_[(row * elevations_ + k) * wavelengths_];
@@ -138,15 +139,11 @@ SunTable::SunTable(const Profile& profile, const Optics& optics, const double su
                 result[w] = std::max(0., result[w] - std::log(mean[w] / weights));
         }
     };
-    std::vector<std::thread> threads;
-    for (int t = 0; t < threadCount; ++t)
-        threads.emplace_back([&, t] {
-            RayTracer tracer(profile, optics, 2);
-            for (size_t row = t; row <= altitudes_.size(); row += threadCount)
-                fillRow(row, tracer);
-        });
-    for (auto& thread : threads)
-        thread.join();
+    base::parallel([&](int thread, int threads) {
+        RayTracer tracer(profile, optics, 2);
+        for (size_t row = thread; row <= altitudes_.size(); row += threads)
+            fillRow(row, tracer);
+    });
 }
 
 SunTable::Row SunTable::row(const double altitude) const

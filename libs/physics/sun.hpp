@@ -1,4 +1,5 @@
 #pragma once
+#include "base/stop.hpp"
 #include "physics/optics.hpp"
 #include "physics/profile.hpp"
 #include <vector>
@@ -17,8 +18,10 @@ public:
     /// Axis in the elevation x above the lowest Sun that still shows: u = asinh(x / scale) / asinh(range / scale).
     ///   elevations  on a planet with the Earth's sunset (physics::usualSunset); where the Sun goes out over a smaller angle the scale
     ///               is smaller in proportion, and there are so many more elevations that steps elsewhere stay as long
-    SunTable(const Profile& profile, const Optics& optics, double sunAngularRadius, int altitudes = 56, int elevations = 112,
-             int threads = 2);
+    ///   stop        asked for every Sun of every altitude; throws base::Stopped
+    SunTable(const Profile& profile, const Optics& optics, double sunAngularRadius, int altitudes = usualAltitudes,
+             int elevations = usualElevations, const base::StopRequest& stop = {});
+    static constexpr int usualAltitudes = 56, usualElevations = 112;
 
     const std::vector<double>& altitudes() const { return altitudes_; }
     int elevationCount() const { return elevations_; }

@@ -53,8 +53,10 @@ std::vector<physics::RayNodes> traceRays(const Scene& scene, const std::vector<R
     std::vector<physics::RayNodes> rays(starts.size());
     base::parallel([&](int thread, int threads) {
         physics::RayTracer tracer(scene.profile, scene.optics);
-        for (std::size_t i = thread; i < starts.size(); i += threads)
+        for (std::size_t i = thread; i < starts.size(); i += threads) {
+            base::stopIfAsked(scene.stop);
             rays[i] = tracer.trace(starts[i].altitude, starts[i].mu, nodes, starts[i].hitsGround, nodesFor);
+        }
     });
     return rays;
 }

@@ -2,6 +2,7 @@
 // Rays as the gather shaders read them. Geometry, density and transmittance are integrated here, in double (physics/ray.hpp);
 // the GPU meets nodes and weights only, so nothing of planet scale is ever computed in float32.
 
+#include "base/stop.hpp"
 #include "gl/buffer_texture.hpp"
 #include "physics/moments.hpp"
 #include "physics/ray.hpp"
@@ -32,6 +33,7 @@ struct Scene {
     const physics::Profile& profile;
     const physics::Optics& optics;
     const physics::SunTable& sun;
+    base::StopRequest stop{}; ///< asked for every ray that is traced
     int sets() const { return (optics.wavelengths + 3) / 4; }
     int scatterers() const { return static_cast<int>(optics.scatterers.size()); }
 };

@@ -21,6 +21,14 @@ namespace sky::solver {
 
 namespace {
 
+/// True never, for work that asks many times: throws.
+bool stopIfCancelled(const Progress& progress)
+{
+    if (progress.cancelled())
+        throw Cancelled("Stopped on request; nothing was written.");
+    return false;
+}
+
 /// Shares of the whole work for the progress bar, and the point where a user may stop.
 class Stages
 {
@@ -47,11 +55,7 @@ public:
     }
 
 private:
-    void check() const
-    {
-        if (progress_.cancelled())
-            throw Cancelled("Stopped on request; nothing was written.");
-    }
+    void check() const { stopIfCancelled(progress_); }
     double reached(double seconds)
     {
         fraction_ = std::clamp(seconds / whole_, fraction_, 1.);
@@ -123,8 +127,10 @@ void solve(const atmo::Description& description, const Options& asked, gl::Headl
     quality.moments.truncatePeaks = quality.moments.truncatePeaks && needs.severalOrders; // light in a peak would count as not scattered
     const physics::Profile profile(medium);
     const physics::Optics optics = physics::makeOptics(medium, quality.moments.degree, quality.moments.truncatePeaks);
-    const physics::SunTable sun(profile, optics, medium.sunAngularRadius);
-    const Scene scene{medium, profile, optics, sun};
+    const base::StopRequest stop = [&progress] { return stopIfCancelled(progress); };
+    const physics::SunTable sun(profile, optics, medium.sunAngularRadius, physics::SunTable::usualAltitudes,
+                                physics::SunTable::usualElevations, stop);
+    const Scene scene{medium, profile, optics, sun, stop};
     const physics::MomentGrid grid(profile, largestExtinctions(optics), quality.moments.altitudes, quality.moments.suns,
                                    medium.sunAngularRadius);
     const BakeJob job{description, options, scene, quality.bake, physics::sunTableDarkEnd(grid.darkDepth()), description.scatteringSize};

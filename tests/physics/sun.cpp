@@ -2,7 +2,9 @@
 #include "media.hpp"
 #include "physics/quadrature.hpp"
 #include "physics/ray.hpp"
+#include <atomic>
 #include <catch2/catch.hpp>
+#include <thread>
 
 using namespace sky::physics;
 using sky::test::pi;
@@ -211,4 +213,13 @@ TEST_CASE("direct sunlight: the axis of elevations runs from the lowest Sun that
         CHECK(air.sun.axis(pi / 2, horizon) == Approx(1));
         CHECK(air.sun.axis(0.2, horizon) > air.sun.axis(0.1, horizon));
     }
+}
+
+TEST_CASE("sunlight: its table can be called off at any Sun")
+{
+    const Air air(sky::test::sampleEarth(sky::test::Aerosol::Yes));
+    std::atomic<int> asked = 0;
+    const auto stop = [&asked] { return ++asked > 100; };
+    CHECK_THROWS_AS(SunTable(air.profile, air.optics, air.medium.sunAngularRadius, 56, 112, stop), sky::base::Stopped);
+    CHECK(asked < 100 + 2 * static_cast<int>(std::thread::hardware_concurrency()) + 2);
 }
