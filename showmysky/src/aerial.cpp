@@ -80,17 +80,17 @@ bool Aerial::step(int lines)
     std::vector<float> shares;
     std::vector<std::size_t> firstShare; // [line]
     if (scene_.eclipse && scene_.eclipse->higherOrders) {
-        std::vector<physics::RayNodes> lines;
+        std::vector<physics::RayNodes> nodesOf;
         std::size_t nodes = 0;
         for (const Line& line : traced) {
             firstShare.push_back(nodes * static_cast<std::size_t>(columns() * atmosphere_.wavelengths()));
             nodes += line.multiple.nodes.size();
-            lines.push_back(line.multiple);
+            nodesOf.push_back(line.multiple);
         }
         std::vector<double> relative;
         for (int a = 0; a < columns(); ++a)
             relative.push_back(relativeAzimuth(a));
-        shares = scene_.eclipse->higherOrders(lines, {sines_.begin() + first, sines_.begin() + end}, relative);
+        shares = scene_.eclipse->higherOrders(nodesOf, {sines_.begin() + first, sines_.begin() + end}, relative);
     }
     sky::base::parallel([&](int thread, int threads) {
         for (int view = first + thread; view < end; view += threads) {
