@@ -71,6 +71,7 @@ public:
             std::printf("%-32s %.1f frames/s, %.0f ms of processor time each\n", what, frames / spent, 1e3 * processor / frames);
         };
         framesPerSecond("camera turning", [&] { camera.yaw = 0.001 * frame; });
+        std::printf("texture fetches per pixel    %d\n", sky.fetchesPerPixel());
         framesPerSecond("Sun moving", [&] { scene.sun.zenithAngle = 1 + 0.0005 * frame; });
         framesPerSecond("altitude moving", [&] { scene.altitude = 10. * frame; });
         scene = {};
@@ -106,7 +107,6 @@ public:
             framesPerSecond("textures: Sun moving", [&] { scene.sun.zenithAngle = 1 + 0.0005 * frame; });
             framesPerSecond("textures: altitude moving", [&] { scene.altitude = 10. * frame; });
         }
-        std::printf("texture fetches per pixel    %d\n", sky.fetchesPerPixel());
         std::printf("textures on the GPU          %.1f MB\n", static_cast<double>(sky.textureBytes()) / 1e6);
         return 0;
     }
