@@ -1,5 +1,5 @@
-#include "base/angles.hpp"
 #include "eclipse/frame.hpp"
+#include "base/angles.hpp"
 #include "eclipse/grid.hpp"
 #include "scene.hpp"
 #include <catch2/catch.hpp>

@@ -1,6 +1,6 @@
 // What a run says before it begins: what it skips and why, and how much it will take.
-#include "solver/medium_tables.hpp"
 #include "solver/plan.hpp"
+#include "solver/medium_tables.hpp"
 #include "support.hpp"
 
 using namespace sky;
