@@ -1,6 +1,5 @@
 #include "solver/plan.hpp"
 #include "solver/eclipse_table.hpp"
-#include "solver/field_work.hpp"
 #include "solver/light_pollution.hpp"
 #include "solver/quality.hpp"
 #include <algorithm>
@@ -82,7 +81,7 @@ Needs needsOf(const atmo::Description& d, const Options& options)
     return n;
 }
 
-Work workOf(const atmo::Description& d, const Options& options, const Needs& needs, const physics::Medium* const medium)
+Work workOf(const atmo::Description& d, const Options& options, const Needs& needs, const FieldWork* const field)
 {
     Work w;
     const double sets = (d.wavelengths.count + 3) / 4, quality = relativeWork(options.quality);
@@ -90,7 +89,7 @@ Work workOf(const atmo::Description& d, const Options& options, const Needs& nee
     w.medium = 0.05;
     w.sunlight = 0.15;
     if (needs.field)
-        w.moments = medium ? fieldWorkOf(*medium, options, ordersOf(d)).seconds : (0.1 + 0.03 * sets * events) * quality;
+        w.moments = field ? field->seconds : (0.1 + 0.03 * sets * events) * quality;
     if (needs.transmittance)
         w.transmittance = 1e-5 * d.transmittanceSize.altitude * d.transmittanceSize.zenithAngle;
     if (needs.irradiance)
@@ -114,7 +113,8 @@ Work workOf(const atmo::Description& d, const Options& options, const Needs& nee
 std::vector<PlanItem> plan(const atmo::Description& d, const Options& options, const physics::Medium* const medium)
 {
     const Needs needs = needsOf(d, options);
-    const Work work = workOf(d, options, needs, medium);
+    const auto known = needs.field && medium ? std::optional(fieldWorkOf(*medium, options, ordersOf(d))) : std::nullopt;
+    const Work work = workOf(d, options, needs, known ? &*known : nullptr);
     const double sets = (d.wavelengths.count + 3) / 4, points = texels(d.scatteringSize, options);
     const double bytes = options.texturePrecisionBits <= 11 ? 2 : 4, compressed = 0.7;
     const auto size = [](double value) { return static_cast<std::size_t>(value); };
@@ -123,7 +123,7 @@ std::vector<PlanItem> plan(const atmo::Description& d, const Options& options, c
     std::vector<PlanItem> items;
     items.push_back({"medium", true, "densities and phase functions as tables", memory(4e6), size(3e5), work.medium + work.sunlight});
     if (needs.field) {
-        const FieldWork field = medium ? fieldWorkOf(*medium, options, ordersOf(d)) : FieldWork{work.moments, 8e6 * sets, 1.2e5 * sets};
+        const FieldWork field = known.value_or(FieldWork{work.moments, 8e6 * sets, 1.2e5 * sets});
         items.push_back(
             {"moments", true, qualityOf(options), memory(field.bytes), size(needs.moments ? field.diskBytes : 0), field.seconds});
     }

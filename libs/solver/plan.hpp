@@ -1,6 +1,7 @@
 #pragma once
 #include "model/manifest.hpp"
 #include "physics/optics.hpp"
+#include "solver/field_work.hpp"
 #include "solver/solve.hpp"
 
 namespace sky::solver {
@@ -25,8 +26,8 @@ struct Work {
                writing;
     }
 };
-/// \param medium  as long as it is not known, the moments' time is a guess
-Work workOf(const atmo::Description& description, const Options& options, const Needs& needs, const physics::Medium* medium = nullptr);
+/// \param field  as long as it is not known, the moments' time is a guess
+Work workOf(const atmo::Description& description, const Options& options, const Needs& needs, const FieldWork* field = nullptr);
 
 /// Bytes of results that may be gathered at a time under --max-memory: a quarter of what the fixed needs leave, since results exist on the
 /// GPU, in its copy, where they go to, and while that is written. 0: no bound.

@@ -113,7 +113,10 @@ void solve(const atmo::Description& description, const Options& asked, gl::Headl
     for (const auto& sentence : warnings)
         progress.warning(sentence);
     const Options options = settled(asked, medium, progress);
-    stages.reestimate(workOf(description, options, needs, &medium));
+    std::optional<FieldWork> fieldWork;
+    if (needs.field)
+        fieldWork = fieldWorkOf(medium, options, description.allScatteringOrders ? 0 : description.scatteringOrders);
+    stages.reestimate(workOf(description, options, needs, fieldWork ? &*fieldWork : nullptr));
     model::Manifest manifest = describe(description, options, medium);
     manifest.lightPollutionRadiance = glow;
     manifest.warnings = warnings;
