@@ -1,5 +1,15 @@
-"""What is asked of a model by campaign.py, and the complaints about its answers. Metres and radians."""
+#!/usr/bin/env python3
+"""What is asked of a model by campaign.py, and the complaints about its answers. Metres and radians.
+
+    tests/stress/judge.py MODEL FACTS.json
+
+asks both methods of answering and prints, as JSON, the complaints, the largest difference between the two and where, and whether there are several
+orders. Needs NumPy, and the library in $SHOWMYSKY_LIBRARY.
+"""
+import json
 import math
+import os
+import sys
 
 import numpy as np
 
@@ -121,3 +131,22 @@ def judge_methods(fast, reference, layers, facts):
     error = np.abs(a - b).max(axis=1) / np.maximum(b.max(axis=1), 1e-6 * max(b.max(), 1e-300))
     worst = int(np.argmax(error))
     return float(error[worst]), place(rows[worst])
+
+
+def judge(model, facts):
+    sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../showmysky/python"))
+    import showmysky # finds its library through $SHOWMYSKY_LIBRARY
+    with showmysky.Photometer(model) as fast, showmysky.Photometer(model, reference=True) as reference:
+        layers = showmysky.WHOLE_SKY
+        try:
+            fast.radiance(0.0, 0.0, 0.0)
+        except showmysky.Error: # one order, or nothing scatters: there are no moments
+            layers = showmysky.SINGLE_SCATTERING
+        complaints = judge_values(fast, layers, facts) + judge_steps(fast, layers, facts) + judge_energy(fast, layers, facts)
+        error, where = judge_methods(fast, reference, layers, facts)
+        return {"complaints": complaints, "error": error, "where": where, "several": bool(layers & showmysky.MULTIPLE_SCATTERING)}
+
+
+if __name__ == "__main__":
+    with open(sys.argv[2]) as file:
+        print(json.dumps(judge(sys.argv[1], json.load(file))))
