@@ -143,6 +143,14 @@ inline void cutAtNodes(const std::vector<double>& bounds, const std::vector<doub
     }
 }
 
+/// How the light of a cell with a given centre (0..1 of the cell) lies along it: linearly. Were all of it put at the centre, nodes that are
+/// closer than cells would get light by turns.
+template<class T>
+struct LightAlong {
+    T slope;  ///< 6 (centre - 1/2), but no steeper than -1 or 1: more would be negative at one end
+    T excess; ///< by how much the centre is beyond what the slope makes of it
+};
+
 /// Light of a cell that comes from a part of it: 1 is that of the cell.
 template<class T>
 struct LightOfPart {
@@ -150,21 +158,32 @@ struct LightOfPart {
     T far; ///< of that, what counts for the node after the part; the rest is for the one before
 };
 
-/// The light of a cell with a given centre (0..1 of the cell), taken as linear along it. Were all of it put at the centre, nodes that are closer
-/// than cells would get light by turns.
-///   slope  6 (centre - 1/2), but no steeper than -1 or 1: more would be negative at one end
-///   Scalar  float or double; T: such a number, or a vector of them
-template<class Scalar, class T>
-LightOfPart<T> lightOf(const CellPart& part, const T& centre, const T& slope)
+/// What a part gets of any cell's light: polynomials of the slope and the excess.
+template<class Scalar>
+class PartLight
 {
-    const Scalar offset = part.offset, scale = part.length;
-    if (part.begin <= 0 && part.end >= 1)
-        return {0 * centre + 1, offset + scale * centre};
-    const Scalar begin = part.begin, end = part.end, half = Scalar(0.5);
-    const Scalar length = end - begin, middle = half * (begin + end), square = (begin * begin + begin * end + end * end) / 3; // mean of x^2
-    const T share = length * (1 + slope * (2 * middle - 1));
-    const T moment = length * (middle + slope * (2 * square - middle)) + share * (centre - half - slope / 6);
-    return {share, offset * share + scale * moment};
-}
+public:
+    explicit PartLight(const CellPart& part)
+    {
+        const Scalar begin = part.begin, end = part.end, half = Scalar(0.5);
+        const Scalar middle = half * (begin + end), square = (begin * begin + begin * end + end * end) / 3; // mean of x^2
+        share_ = end - begin;
+        tilt_ = share_ * (2 * middle - 1);
+        const Scalar offset = part.offset;
+        scale_ = part.length;
+        far_ = offset * share_ + scale_ * share_ * middle;
+        farTilt_ = offset * tilt_ + scale_ * share_ * (2 * square - middle);
+    }
+    /// \tparam T  Scalar, or a vector of them
+    template<class T>
+    LightOfPart<T> of(const LightAlong<T>& light) const
+    {
+        const T share = share_ + tilt_ * light.slope;
+        return {share, far_ + farTilt_ * light.slope + scale_ * light.excess * share};
+    }
+
+private:
+    Scalar share_, tilt_, far_, farTilt_, scale_;
+};
 
 } // namespace sky::physics

@@ -7,26 +7,7 @@ namespace sky::physics {
 
 using base::pi;
 
-void harmonicFactors(const int degree, const double mu, double* const factors)
-{
-    const double sine = std::sqrt(std::max(0., 1 - mu * mu));
-    double diagonal = std::sqrt(1 / (4 * pi)); // normalised P_mm
-    for (int m = 0; m <= degree; ++m) {
-        if (m > 0)
-            diagonal *= sine * std::sqrt((2 * m + 1) / (2. * m));
-        const double norm = m > 0 ? std::sqrt(2.) : 1.;
-        double previous = 0, current = diagonal;
-        factors[harmonicIndex(m, m)] = norm * current;
-        for (int l = m + 1; l <= degree; ++l) {
-            const double a = std::sqrt((4. * l * l - 1) / (double(l) * l - double(m) * m));
-            const double b = std::sqrt(((l - 1.) * (l - 1.) - double(m) * m) / (4. * (l - 1.) * (l - 1.) - 1));
-            const double next = a * (mu * current - (l - 1 > m ? b : 0.) * previous);
-            previous = current;
-            current = next;
-            factors[harmonicIndex(l, m)] = norm * current;
-        }
-    }
-}
+void harmonicFactors(const int degree, const double mu, double* const factors) { harmonicFactors(degree, &mu, 1, factors); }
 
 void legendre(const int degree, const double x, double* const values)
 {

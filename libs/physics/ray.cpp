@@ -210,7 +210,8 @@ RayNodes RayTracer::trace(const double altitude, const double mu, const int coun
         result.nodes.push_back(nodeAt(s));
     result.weights.assign(count * scatterers * wavelengths, 0.);
     cutAtNodes(bounds_, position, parts_);
-    for (const CellPart& part : parts_)
+    for (const CellPart& part : parts_) {
+        const PartLight<double> partLight(part);
         for (int i = 0; i < scatterers; ++i) {
             const int c = part.cell, s = optics_.scatterers[i];
             const double column = columns_[c * species + s];
@@ -219,12 +220,14 @@ RayNodes RayTracer::trace(const double altitude, const double mu, const int coun
             for (int w = 0; w < wavelengths; ++w) {
                 const double weight = column * optics_.scattering[s * wavelengths + w] * seen[c * wavelengths + w];
                 const double centre = std::clamp(centres_[c * species + s] + shift[size_t(c) * wavelengths + w], 0., 1.);
-                const auto light = lightOf<double>(part, centre, std::clamp(6 * centre - 3, -1., 1.));
+                const double slope = std::clamp(6 * centre - 3, -1., 1.);
+                const auto light = partLight.of<double>({slope, centre - 0.5 - slope / 6});
                 const double beyond = std::clamp(light.far, 0., light.share);
                 near[w] += (light.share - beyond) * weight;
                 far[w] += beyond * weight;
             }
         }
+    }
     result.hitsGround = hits;
     result.ground = nodeAt(length);
     result.groundTransmittance.assign(wavelengths, 0.);

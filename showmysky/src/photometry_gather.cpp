@@ -2,6 +2,7 @@
 #include "base/angles.hpp"
 #include "physics/harmonics.hpp"
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace showmysky {
@@ -38,31 +39,37 @@ void addSunlight(const SunNode* nodes, int count, int scatterers, int blocks, co
 
 /// The field at one node, scattered towards the eye.
 struct FieldNode {
-    const Block* corners[16]; ///< [lm][block] each
-    float weights[16];
-    const float* harmonics;  ///< [lm], Y_lm of the ray's direction
+    const Block* corners[4];       ///< [sun][lm][block] at four altitudes, the first of four Suns
+    std::ptrdiff_t sun;            ///< from one Sun to the next
+    std::array<float, 16> weights; ///< [altitude][sun]
+    const float* harmonics;        ///< [lm][node], Y_lm of the ray's direction
+    int nodes;
     const Block* scattering; ///< [scatterer][block]
 };
 
-SKY_WIDEST_VECTORS
-void addField(const FieldNode& n, int degree, int scatterers, int blocks, const Block* lambda, Block* byDegree, Block* sum)
+/// Between sixteen neighbours.
+SKY_INLINE Lanes interpolated(const FieldNode& n, const std::array<float, 16>& weights, int at)
 {
+    Lanes even = all(0), odd = all(0);
+    for (int i = 0; i < 4; ++i) {
+        const Block* corner = n.corners[i] + at;
+        even += weights[4 * i] * corner[0].v + weights[4 * i + 2] * corner[2 * n.sun].v;
+        odd += weights[4 * i + 1] * corner[n.sun].v + weights[4 * i + 3] * corner[3 * n.sun].v;
+    }
+    return even + odd;
+}
+
+SKY_WIDEST_VECTORS
+void addField(const FieldNode& from, int degree, int scatterers, int blocks, const Block* lambda, Block* byDegree, Block* sum)
+{
+    const FieldNode n = from; // whose fields no store below can change
     for (int b = 0; b < blocks; ++b) {
-        Lanes logarithm = all(0);
-        for (int j = 0; j < 16; ++j)
-            logarithm += n.weights[j] * n.corners[j][b].v;
+        const Lanes logarithm = interpolated(n, n.weights, b);
         byDegree[0].v = all(n.harmonics[0]);
         for (int l = 1, lm = 1; l <= degree; ++l) {
             Lanes towards = all(0);
-            for (int m = 0; m <= l; ++m, ++lm) {
-                Lanes a = all(0), c = all(0);
-                const int at = lm * blocks + b;
-                for (int j = 0; j < 16; j += 2) {
-                    a += n.weights[j] * n.corners[j][at].v;
-                    c += n.weights[j + 1] * n.corners[j + 1][at].v;
-                }
-                towards += n.harmonics[lm] * (a + c);
-            }
+            for (int m = 0; m <= l; ++m, ++lm)
+                towards += n.harmonics[lm * n.nodes] * interpolated(n, n.weights, lm * blocks + b);
             byDegree[l].v = towards;
         }
         Lanes light = all(0);
@@ -73,6 +80,64 @@ void addField(const FieldNode& n, int degree, int scatterers, int blocks, const 
             light += scattered * n.scattering[i * blocks + b].v;
         }
         sum[b].v += exponential(logarithm) * light;
+    }
+}
+
+/// For each node the horizon, and the length of the axis over which the Sun rises above it.
+SKY_WIDEST_VECTORS
+void findHorizons(const physics::Planet& planet, int count, const double* altitudes, float sunRadius, float elevationScale, float* horizons,
+                  float* axisScales)
+{
+    for (int k = 0; k < count; ++k) {
+        const double h = altitudes[k] > 0 ? altitudes[k] : 0, far = std::sqrt(physics::radiusExcessSquared(planet, h));
+        horizons[k] = -sky::base::arcsineLane(static_cast<float>(far / (planet.radius + h)));
+        const float x = (static_cast<float>(pi / 2) - horizons[k] + sunRadius) / elevationScale;
+        axisScales[k] = 1 / sky::base::log2Lane(x + std::sqrt(x * x + 1));
+    }
+}
+
+/// For each node how high the Sun stands, and where that is on the axis: asinh by its logarithm.
+SKY_WIDEST_VECTORS
+void findSuns(const NodeSet& set, FastScratch& scratch, float muSun, float nu, float sunRadius, float elevationScale)
+{
+    const float *const sunScales = set.sunScales.data(), *const nuScales = set.nuScales.data(), *const horizons = scratch.horizons.data(),
+                       *const axisScales = scratch.axisScales.data();
+    float *const above = scratch.above.data(), *const places = scratch.places.data();
+    for (int k = 0; k < set.count(); ++k) {
+        above[k] = sky::base::arcsineLane(sunScales[k] * muSun + nuScales[k] * nu) - horizons[k];
+        const float lifted = above[k] + sunRadius, x = lifted > 0 ? lifted / elevationScale : 0.f;
+        const float place = sky::base::log2Lane(x + std::sqrt(x * x + 1)) * axisScales[k];
+        places[k] = place < 1 ? place : 1.f;
+    }
+}
+
+/// For each node how high the Sun stands, and the harmonics towards the eye in azimuth from it.
+SKY_WIDEST_VECTORS
+void findHarmonics(const NodeSet& set, FastScratch& scratch, int degree, float muSun, float nu)
+{
+    const int count = set.count();
+    const float *const sunScales = set.sunScales.data(), *const nuScales = set.nuScales.data(), *const mu = set.mu.data();
+    float *const elevations = scratch.elevations.data(), *const cosines = scratch.cosines.data();
+    float *const multiples = scratch.multiples.data(), *const before = scratch.beforeThem.data();
+    for (int k = 0; k < count; ++k) {
+        const float raised = sunScales[k] * muSun + nuScales[k] * nu, sun = raised < -1 ? -1.f : raised > 1 ? 1.f : raised;
+        const float squares = (1 - mu[k] * mu[k]) * (1 - sun * sun);
+        const float cosine = squares > 1e-12f ? (nu - mu[k] * sun) / std::sqrt(squares) : 1.f;
+        elevations[k] = sky::base::arcsineLane(sun);
+        before[k] = cosines[k] = cosine < -1 ? -1.f : cosine > 1 ? 1.f : cosine;
+        multiples[k] = 1;
+    }
+    const float* const factors = scratch.factors.data();
+    float* const harmonics = scratch.harmonics.data();
+    for (int m = 0; m <= degree; ++m) {
+        for (int l = m; l <= degree; ++l)
+            for (int k = 0, at = physics::harmonicIndex(l, m) * count; k < count; ++k)
+                harmonics[at + k] = factors[at + k] * multiples[k];
+        for (int k = 0; k < count; ++k) {
+            const float next = 2 * cosines[k] * multiples[k] - before[k];
+            before[k] = multiples[k];
+            multiples[k] = next;
+        }
     }
 }
 
@@ -98,6 +163,8 @@ FastGather::FastGather(const physics::Medium& medium, const physics::Optics& opt
     if (moments) {
         const auto values = moments->withSunBeyondZenith();
         field_ = toBlocks(values.data(), values.size() / wavelengths_, wavelengths_);
+        // Four Suns in a row are read, where the grid has but two and the one beyond the zenith too.
+        field_.resize(field_.size() + static_cast<std::size_t>(physics::harmonicCount(degree_)) * blocks_, Block{all(0)});
     }
     for (const int s : optics.scatterers) {
         const auto rows = toBlocks(&optics.moments[s * (degree_ + 1) * wavelengths_], degree_ + 1, wavelengths_);
@@ -125,22 +192,27 @@ void FastGather::prepare(FastScratch& scratch) const
     if (scratch.prepared == ray.version)
         return;
     scratch.prepared = ray.version;
+    const int suns = ray.single.count();
     scratch.sunRows.clear();
-    for (const auto& node : ray.single.nodes) {
-        const auto [row, y] = sun_.row(node.altitude);
-        const double horizon = physics::horizonElevation(planet_, node.altitude), range = pi / 2 - horizon + sunRadius_;
-        scratch.sunRows.push_back({row, static_cast<float>(y), horizon, 1 / std::asinh(range / sun_.elevationScale())});
+    for (const double altitude : ray.single.altitudes) {
+        const auto [row, share] = sun_.row(altitude);
+        scratch.sunRows.push_back({row, static_cast<float>(share)});
     }
+    for (auto* numbers : {&scratch.horizons, &scratch.axisScales, &scratch.above, &scratch.places})
+        numbers->resize(suns);
+    findHorizons(planet_, suns, ray.single.altitudes.data(), static_cast<float>(sunRadius_), static_cast<float>(sun_.elevationScale()),
+                 scratch.horizons.data(), scratch.axisScales.data());
     if (!moments_)
         return;
+    const int nodes = ray.multiple.count(), harmonics = physics::harmonicCount(degree_);
     scratch.fieldRows.clear();
-    const int harmonics = physics::harmonicCount(degree_);
-    scratch.factors.resize(ray.multiple.nodes.size() * harmonics);
-    for (std::size_t k = 0; k < ray.multiple.nodes.size(); ++k) {
-        const auto& node = ray.multiple.nodes[k];
-        scratch.fieldRows.push_back(moments_->grid.altitudeStencil(node.altitude));
-        physics::harmonicFactors(degree_, node.mu, &scratch.factors[k * harmonics]);
-    }
+    for (const double altitude : ray.multiple.altitudes)
+        scratch.fieldRows.push_back(moments_->grid.altitudeStencil(altitude));
+    for (auto* numbers : {&scratch.elevations, &scratch.cosines, &scratch.multiples, &scratch.beforeThem})
+        numbers->resize(nodes);
+    scratch.factors.resize(nodes * harmonics);
+    scratch.harmonics.resize(nodes * harmonics);
+    physics::harmonicFactors(degree_, ray.multiple.mu.data(), nodes, scratch.factors.data());
 }
 
 void FastGather::exactPhase(const double nu, FastScratch& scratch) const
@@ -170,22 +242,21 @@ void FastGather::truncatedPhase(const double nu, FastScratch& scratch) const
 void FastGather::gatherSingle(FastScratch& scratch, const double muSun, const double nu, const bool exact) const
 {
     const NodeSet& set = scratch.ray.single;
-    const int elevations = sun_.elevationCount(), count = static_cast<int>(set.nodes.size());
+    findSuns(set, scratch, static_cast<float>(muSun), static_cast<float>(nu), static_cast<float>(sunRadius_),
+             static_cast<float>(sun_.elevationScale()));
+    const int elevations = sun_.elevationCount(), count = set.count();
     SunNode nodes[64];
     scratch.lit.assign(scatterers_ * blocks_, Block{all(0)});
     for (int from = 0; from < count; from += 64) {
         const int part = std::min(64, count - from);
         for (int j = 0; j < part; ++j) {
-            const auto& node = set.nodes[from + j];
-            const auto& row = scratch.sunRows[from + j];
-            const double elevation = std::asin(std::clamp(node.sunScale * muSun + node.nuScale * nu, -1., 1.));
-            const double above = elevation - row.horizon;
-            const double x = std::max(0., above + sunRadius_) / sun_.elevationScale();
-            const double u = std::min(1., std::log(x + std::sqrt(x * x + 1)) * row.scale) * (elevations - 1);
+            const int node = from + j;
+            const auto& row = scratch.sunRows[node];
+            const float u = scratch.places[node] * static_cast<float>(elevations - 1);
             const int k = std::min(static_cast<int>(u), elevations - 2);
             const Block* low = &depth_[(static_cast<std::size_t>(row.row) * elevations + k) * blocks_];
-            nodes[j] = {low, low + elevations * blocks_, static_cast<float>(u - k), row.share,
-                        static_cast<float>(physics::visibleDiscFraction(above, sunRadius_))};
+            nodes[j] = {low, low + elevations * blocks_, u - static_cast<float>(k), row.share,
+                        static_cast<float>(physics::visibleDiscFraction(double(scratch.above[node]), sunRadius_))};
         }
         addSunlight(nodes, part, scatterers_, blocks_, &set.weights[static_cast<std::size_t>(from) * scatterers_ * blocks_],
                     scratch.lit.data());
@@ -205,33 +276,22 @@ void FastGather::gatherMultiple(FastScratch& scratch, const double muSun, const 
     const NodeSet& set = scratch.ray.multiple;
     const auto& grid = moments_->grid;
     const int harmonics = physics::harmonicCount(degree_), suns = grid.sunCount() + 1;
+    findHarmonics(set, scratch, degree_, static_cast<float>(muSun), static_cast<float>(nu));
     scratch.byDegree.resize(degree_ + 1, Block{all(0)});
-    std::vector<float>& towards = scratch.harmonics;
-    towards.resize(harmonics);
-    for (std::size_t k = 0; k < set.nodes.size(); ++k) {
-        const auto& node = set.nodes[k];
-        const double muSunNode = std::clamp(node.sunScale * muSun + node.nuScale * nu, -1., 1.);
-        const auto sun = grid.sunStencil(grid.sunPosition(std::asin(muSunNode)));
-        const double sines = std::sqrt(std::max(0., (1 - node.mu * node.mu) * (1 - muSunNode * muSunNode)));
-        const double cosine = sines > 1e-12 ? std::clamp((nu - node.mu * muSunNode) / sines, -1., 1.) : 1.;
-        double chebyshev = 1, previous = cosine; // cos(m phi), cos((m-1) phi)
-        for (int m = 0; m <= degree_; ++m) {
-            for (int l = m; l <= degree_; ++l)
-                towards[physics::harmonicIndex(l, m)] =
-                    static_cast<float>(chebyshev * scratch.factors[k * harmonics + physics::harmonicIndex(l, m)]);
-            const double next = 2 * cosine * chebyshev - previous;
-            previous = chebyshev;
-            chebyshev = next;
-        }
-        FieldNode field;
+    FieldNode field;
+    field.sun = static_cast<std::ptrdiff_t>(harmonics) * blocks_;
+    field.nodes = set.count();
+    for (int k = 0; k < field.nodes; ++k) {
+        const auto sun = grid.sunStencil(grid.sunPosition(double(scratch.elevations[k])));
+        // Four neighbours in a row: at the lowest Sun the first, which has no weight, stands at the end instead.
+        const int first = std::max(sun.index[1] - 1, 0), ahead = first - (sun.index[1] - 1);
         const auto& altitudes = scratch.fieldRows[k];
-        for (int i = 0; i < 4; ++i)
-            for (int j = 0; j < 4; ++j) {
-                field.corners[4 * i + j] =
-                    &field_[(static_cast<std::size_t>(altitudes.index[i]) * suns + sun.index[j]) * harmonics * blocks_];
-                field.weights[4 * i + j] = static_cast<float>(altitudes.weight[i] * sun.weight[j]);
-            }
-        field.harmonics = towards.data();
+        for (int i = 0; i < 4; ++i) {
+            field.corners[i] = &field_[(static_cast<std::size_t>(altitudes.index[i]) * suns + first) * harmonics * blocks_];
+            for (int j = 0; j < 4; ++j)
+                field.weights[4 * i + j] = static_cast<float>(altitudes.weight[i] * sun.weight[(j + ahead) % 4]);
+        }
+        field.harmonics = &scratch.harmonics[k];
         field.scattering = &set.weights[k * scatterers_ * blocks_];
         addField(field, degree_, scatterers_, blocks_, lambda_.data(), scratch.byDegree.data(), scratch.sum.data());
     }

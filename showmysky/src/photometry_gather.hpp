@@ -9,21 +9,25 @@ namespace showmysky {
 
 /// Memory of one question at a time.
 struct FastScratch {
-    /// What a node needs that depends on its altitude alone.
+    /// Where in the table of sunlight a node is; depends on its altitude alone.
     struct SunRow {
-        int row;               ///< of the table of sunlight
-        float share;           ///< of the row above
-        double horizon, scale; ///< rad; 1 / asinh(range / elevationScale)
+        int row;
+        float share; ///< of the row above
     };
     FastRay ray;
     unsigned prepared = 0; ///< version of the ray that these belong to
     std::vector<SunRow> sunRows;
+    std::vector<float> horizons;      ///< [node], elevation, rad
+    std::vector<float> axisScales;    ///< [node], 1 / log2 of the whole axis of elevations
+    std::vector<float> above, places; ///< [node], of the Sun over the horizon, rad; on the axis, 0..1
     std::vector<sky::physics::Stencil> fieldRows;
-    std::vector<double> factors;   ///< [node][lm]
-    std::vector<float> harmonics;  ///< [lm]
-    lanes::Blocks lit;             ///< [scatterer][block]
-    lanes::Blocks phase, byDegree; ///< [scatterer][block], [l][block]
-    lanes::Blocks sum;             ///< [block]
+    std::vector<float> factors;               ///< [lm][node]
+    std::vector<float> elevations, cosines;   ///< [node], of the Sun, rad; of the relative azimuth there
+    std::vector<float> multiples, beforeThem; ///< [node], cos(m phi), cos((m-1) phi)
+    std::vector<float> harmonics;             ///< [lm][node], towards the eye
+    lanes::Blocks lit;                        ///< [scatterer][block]
+    lanes::Blocks phase, byDegree;            ///< [scatterer][block], [l][block]
+    lanes::Blocks sum;                        ///< [block]
 };
 
 /// Radiance per unit solar irradiance, sr^-1. Const functions are thread-safe, each with a scratch of its own.

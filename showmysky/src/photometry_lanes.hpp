@@ -1,5 +1,5 @@
 #pragma once
-// Eight wavelengths at a time: the compiler's vector type, and the exponential function on it.
+// Sixteen wavelengths at a time: the compiler's vector type, and the exponential function on it.
 
 #include "base/lanes.hpp"
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace showmysky::lanes {
 
-constexpr int count = 8;
+constexpr int count = 16;
 using Lanes = float __attribute__((vector_size(count * sizeof(float))));
 using Integers = std::int32_t __attribute__((vector_size(count * sizeof(std::int32_t))));
 
@@ -17,9 +17,9 @@ using Integers = std::int32_t __attribute__((vector_size(count * sizeof(std::int
 // Helpers are compiled into each of its variants.
 #define SKY_INLINE [[gnu::always_inline]] inline
 
-SKY_INLINE Lanes all(float x) { return Lanes{x, x, x, x, x, x, x, x}; }
+SKY_INLINE Lanes all(float x) { return x - Lanes{}; }
 
-/// Wavelengths in steps of eight, the last step filled up with zeros.
+/// Wavelengths in steps of sixteen, the last step filled up with zeros.
 struct alignas(count * sizeof(float)) Block { // without AVX the compiler would align less than variants with AVX take for granted
     Lanes v;
 };

@@ -16,12 +16,28 @@ struct CellLoop {
     const int* scatterer; ///< indices of species
     const Block *extinction, *scattering;
     const float* centres; ///< [cells][species], of the density: 0..1 of the cell
-    Block *seen, *shift, *transmittance;
+    CellLight* lit;
+    Block* transmittance;
     float *light, *depth;
 };
 
 /// Sum of the lanes.
-SKY_INLINE float total(Lanes x) { return (x[0] + x[1]) + (x[2] + x[3]) + ((x[4] + x[5]) + (x[6] + x[7])); }
+SKY_INLINE float total(Lanes x)
+{
+    float sums[count];
+    for (int i = 0; i < count; ++i)
+        sums[i] = x[i];
+    for (int half = count / 2; half > 0; half /= 2)
+        for (int i = 0; i < half; ++i)
+            sums[i] += sums[i + half];
+    return sums[0];
+}
+
+SKY_INLINE Lanes held(Lanes x, float low, float high)
+{
+    x = x < low ? all(low) : x;
+    return x > high ? all(high) : x;
+}
 
 /// Attenuation cell by cell: the mean transmittance over each is T (1 - e^-tau) / tau.
 SKY_WIDEST_VECTORS
@@ -33,23 +49,27 @@ void foldCells(const CellLoop& loop)
         Lanes transmittance = all(1);
         for (int c = 0; c < loop.cells; ++c) {
             const float* column = loop.columns + c * loop.species;
+            const float* centres = loop.centres + c * loop.species;
             Lanes tau = all(0);
             for (int s = 0; s < loop.species; ++s)
                 tau += column[s] * loop.extinction[s * loop.blocks + b].v;
             // (1 - e^-tau) / tau; for small tau by its series, whose next term, tau^6 / 5040, is below 5e-8.
             const Lanes thin = 1 - tau * (0.5f - tau * (1.f / 6 - tau * (1.f / 24 - tau * (1.f / 120 - tau * (1.f / 720)))));
-            const Lanes inverse = 1 / (tau < 0.25f ? all(1) : tau), left = exponential(-tau);
-            const Lanes mean = tau < 0.25f ? thin : (1 - left) * inverse;
+            const Lanes thick = tau < 0.25f ? all(1) : tau, lost = 1 - exponential(-thick), both = 1 / (thick * lost);
+            const Lanes inverse = both * lost, mean = tau < 0.25f ? thin : lost * inverse;
             // Attenuation moves the light's centre towards the eye by 1 / tau - 1 / (e^tau - 1) - 1/2 of the cell.
             const Lanes square = tau * tau, near = -tau * (1.f / 12 - square * (1.f / 720 - square * (1.f / 30240)));
-            loop.shift[c * loop.blocks + b].v = tau < 1.f ? near : inverse - left / (1 - left) - 0.5f;
+            const Lanes shift = tau < 1.f ? near : inverse - both * thick + 0.5f;
             const Lanes seen = transmittance * mean;
             transmittance -= transmittance * (tau * mean);
-            loop.seen[c * loop.blocks + b].v = seen;
             Lanes scattered = all(0);
-            for (int i = 0; i < loop.scatterers; ++i)
-                scattered += column[loop.scatterer[i]] * loop.scattering[i * loop.blocks + b].v;
-            loop.light[c] += total(scattered * seen);
+            for (int i = 0; i < loop.scatterers; ++i) {
+                const int s = loop.scatterer[i];
+                const Lanes amount = column[s] * seen, centre = held(centres[s] + shift, 0, 1), slope = held(6 * centre - 3, -1, 1);
+                loop.lit[(c * loop.scatterers + i) * loop.blocks + b] = {{amount}, {slope}, {centre - 0.5f - slope * (1.f / 6)}};
+                scattered += amount * loop.scattering[i * loop.blocks + b].v;
+            }
+            loop.light[c] += total(scattered);
             loop.depth[c] += total(tau);
         }
         loop.transmittance[b].v = transmittance;
@@ -62,31 +82,19 @@ void foldWeights(const CellLoop& loop, const std::vector<physics::CellPart>& par
 {
     const int stride = loop.scatterers * loop.blocks;
     std::fill(weights, weights + nodes * stride, Block{all(0)});
-    for (int i = 0; i < loop.scatterers; ++i)
-        for (int b = 0; b < loop.blocks; ++b) {
-            const Lanes sigma = loop.scattering[i * loop.blocks + b].v;
-            const float* column = loop.columns + loop.scatterer[i];
-            const float* centres = loop.centres + loop.scatterer[i];
-            for (auto part = parts.begin(); part != parts.end();) {
-                const int node = part->node;
-                Lanes whole = all(0), beyond = all(0);
-                for (; part != parts.end() && part->node == node; ++part) {
-                    const int c = part->cell;
-                    Lanes centre = centres[c * loop.species] + loop.shift[c * loop.blocks + b].v;
-                    centre = centre < 0.f ? all(0) : (centre > 1.f ? all(1) : centre);
-                    Lanes slope = 6 * centre - 3;
-                    slope = slope < -1.f ? all(-1) : (slope > 1.f ? all(1) : slope);
-                    const auto light = physics::lightOf<float>(*part, centre, slope);
-                    const Lanes far = light.far < 0.f ? all(0) : (light.far > light.share ? light.share : light.far);
-                    const Lanes seen = column[c * loop.species] * loop.seen[c * loop.blocks + b].v;
-                    whole += light.share * seen;
-                    beyond += far * seen;
-                }
-                Block* near = weights + node * stride + i * loop.blocks + b;
-                near->v += (whole - beyond) * sigma;
-                near[stride].v += beyond * sigma;
-            }
+    for (const physics::CellPart& part : parts) {
+        const physics::PartLight<float> partLight(part);
+        const CellLight* lit = loop.lit + part.cell * stride;
+        Block *near = weights + part.node * stride, *beyond = near + stride;
+        for (int i = 0; i < stride; ++i) {
+            const auto light = partLight.of<Lanes>({lit[i].slope.v, lit[i].excess.v});
+            Lanes far = light.far < 0.f ? all(0) : light.far;
+            far = far > light.share ? light.share : far;
+            const Lanes seen = lit[i].amount.v * loop.scattering[i].v;
+            near[i].v += (light.share - far) * seen;
+            beyond[i].v += far * seen;
         }
+    }
 }
 
 /// Densities from their arguments: the exponential where it is the logarithm that is linear.
@@ -96,6 +104,24 @@ void foldDensities(int steps, const Block* argument, const Block* logarithmic, B
     for (int i = 0; i < steps; ++i) {
         const Lanes x = argument[i].v, linear = x > 0.f ? x : all(0);
         density[i].v = logarithmic[i].v > 0.5f ? exponential(x) : linear;
+    }
+}
+
+/// Nodes at their distances along the ray.
+SKY_WIDEST_VECTORS
+void findNodes(const physics::Planet& planet, const FastRay& ray, NodeSet& set)
+{
+    const double r = planet.radius + ray.altitude;
+    const double* const position = ray.position.data();
+    double* const altitudes = set.altitudes.data();
+    float *const sunScales = set.sunScales.data(), *const nuScales = set.nuScales.data(), *const mu = set.mu.data();
+    for (int k = 0; k < set.count(); ++k) {
+        const double s = position[k], h = physics::altitudeAlong(planet, ray.altitude, ray.mu, s), inverse = 1 / (planet.radius + h);
+        altitudes[k] = h;
+        sunScales[k] = static_cast<float>(r * inverse);
+        nuScales[k] = static_cast<float>(s * inverse);
+        const double cosine = (r * ray.mu + s) * inverse;
+        mu[k] = static_cast<float>(cosine < -1 ? -1 : cosine > 1 ? 1 : cosine);
     }
 }
 
@@ -232,7 +258,7 @@ void RayFolder::placeNodes(FastRay& ray, const int nodes, const physics::NodeMea
     for (int c = 0; c < ray.cells; ++c)
         ray.measure.push_back(ray.measure.back() + measure.of(ray.shares[c]));
     const auto& p = profile_.planet();
-    const double r = p.radius + ray.altitude, length = ray.bounds.back(), whole = ray.measure[ray.cells];
+    const double length = ray.bounds.back(), whole = ray.measure[ray.cells];
     ray.position.assign(nodes, 0.);
     for (int k = 1, c = 0; k < nodes && ray.cells > 0; ++k) {
         const double target = whole * k / (nodes - 1);
@@ -243,11 +269,10 @@ void RayFolder::placeNodes(FastRay& ray, const int nodes, const physics::NodeMea
         ray.position[k] = std::min(length, ray.bounds[c] + x * (ray.bounds[c + 1] - ray.bounds[c]));
     }
     ray.position[nodes - 1] = length;
-    set.nodes.clear();
-    for (const double s : ray.position) {
-        const double h = physics::altitudeAlong(p, ray.altitude, ray.mu, s), rNode = p.radius + h;
-        set.nodes.push_back({h, r / rNode, s / rNode, std::clamp((r * ray.mu + s) / rNode, -1., 1.)});
-    }
+    set.altitudes.resize(nodes);
+    for (auto* numbers : {&set.sunScales, &set.nuScales, &set.mu})
+        numbers->resize(nodes);
+    findNodes(p, ray, set);
     set.weights.resize(static_cast<std::size_t>(nodes) * scatterers_.size() * blocks_, Block{all(0)});
     physics::cutAtNodes(ray.bounds, ray.position, ray.parts);
 }
@@ -262,16 +287,24 @@ void RayFolder::trace(const double altitude, const double mu, FastRay& ray) cons
     ray.hitsGround = physics::hitsGround(p, altitude, mu);
     walk(ray);
     findColumns(ray);
-    ray.shift.resize(static_cast<std::size_t>(ray.cells) * blocks_, Block{all(0)});
-    ray.seen.resize(static_cast<std::size_t>(ray.cells) * blocks_, Block{all(0)});
+    ray.lit.resize(static_cast<std::size_t>(ray.cells) * scatterers() * blocks_);
     ray.transmittance.resize(blocks_, Block{all(0)});
     ray.light.resize(ray.cells);
     ray.depth.resize(ray.cells);
     ray.shares.resize(ray.cells);
-    const CellLoop loop{ray.cells,          species_,           scatterers(),        blocks_,
-                        ray.columns.data(), scatterers_.data(), extinctions_.data(), scatterings_.data(),
-                        ray.centres.data(), ray.seen.data(),    ray.shift.data(),    ray.transmittance.data(),
-                        ray.light.data(),   ray.depth.data()};
+    const CellLoop loop{ray.cells,
+                        species_,
+                        scatterers(),
+                        blocks_,
+                        ray.columns.data(),
+                        scatterers_.data(),
+                        extinctions_.data(),
+                        scatterings_.data(),
+                        ray.centres.data(),
+                        ray.lit.data(),
+                        ray.transmittance.data(),
+                        ray.light.data(),
+                        ray.depth.data()};
     foldCells(loop);
 
     physics::NodeShares whole;
@@ -289,7 +322,6 @@ void RayFolder::trace(const double altitude, const double mu, FastRay& ray) cons
     };
     place(effort_.singleNodes, physics::NodesFor::Sunlight, ray.single);
     place(effort_.multipleNodes, physics::NodesFor::Field, ray.multiple);
-    ray.ground = ray.single.nodes.back();
     ++ray.version;
 }
 

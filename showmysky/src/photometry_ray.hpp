@@ -17,20 +17,24 @@ struct Effort {
     double profileTolerance = 1e-3; ///< relative, of densities
 };
 
-/// Nodes along a ray and what each is worth.
+/// Nodes along a ray, as physics::RayNodes::Node, and what each is worth.
 struct NodeSet {
-    struct Node {
-        double altitude, sunScale, nuScale, mu; ///< as physics::RayNodes::Node
-    };
-    std::vector<Node> nodes;
-    lanes::Blocks weights; ///< [node][scatterer][block], scattering optical depth seen
+    std::vector<double> altitudes;              ///< [node], m
+    std::vector<float> sunScales, nuScales, mu; ///< [node]
+    lanes::Blocks weights;                      ///< [node][scatterer][block], scattering optical depth seen
+
+    int count() const { return static_cast<int>(altitudes.size()); }
+};
+
+/// Light that one scatterer of a cell sends to the eye.
+struct CellLight {
+    lanes::Block amount, slope, excess; ///< per cross section; sky::physics::LightAlong
 };
 
 /// One traced ray, and the memory to trace the next.
 struct FastRay {
     double altitude = -1, mu = 0; ///< where it starts; altitude -1: nothing is traced yet
     bool hitsGround = false;
-    NodeSet::Node ground{};      ///< the ray's end
     lanes::Blocks transmittance; ///< [block], to the ray's end
     NodeSet single, multiple;
     unsigned version = 0; ///< counts the rays traced
@@ -42,7 +46,7 @@ struct FastRay {
     std::vector<float> columns;                      ///< [cells][species], in units of RayFolder's scales
     std::vector<float> centres;                      ///< [cells][species], of the density, 0..1 of the cell
     std::vector<float> light, depth;                 ///< [cells], scattered there, and optical depth; sums over the wavelengths
-    lanes::Blocks seen, shift;                       ///< [cells][block], mean transmittance; how attenuation moves the centre of light
+    std::vector<CellLight> lit;                      ///< [cells][scatterer][block]
     std::vector<sky::physics::NodeShares> shares;    ///< [cells]
     std::vector<double> measure, position;
     std::vector<sky::physics::CellPart> parts;

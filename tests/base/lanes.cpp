@@ -28,3 +28,18 @@ TEST_CASE("lanes: logarithms are good to 2e-7 of 1 or of themselves")
     CHECK(base::log2Lane(1.F) == 0.F);
     CHECK(base::log2Lane(8.F) == 3.F);
 }
+
+TEST_CASE("lanes: arcsines are good to 2e-7, and where they are small to 3e-7 of themselves")
+{
+    double worst = 0, worstRelative = 0;
+    for (int i = 1; i <= 100000; ++i)
+        for (const double x : {i * 1e-5, -i * 1e-5, i * 1e-9}) {
+            const double truth = std::asin(double(static_cast<float>(x))), error = double(base::arcsineLane(static_cast<float>(x))) - truth;
+            worst = std::max(worst, std::abs(error));
+            worstRelative = std::max(worstRelative, std::abs(error / truth));
+        }
+    CHECK(worst < 2e-7);
+    CHECK(worstRelative < 3e-7);
+    CHECK(base::arcsineLane(0.F) == 0.F);
+    CHECK(base::arcsineLane(1.5F) == base::arcsineLane(1.F));
+}

@@ -37,7 +37,8 @@ TEST_CASE("ray nodes: cut at nodes, a cell's light keeps its amount and its cent
         const std::vector<double> positions{0, 0.15, 0.15, 0.4, 0.9, 1};
         double amount = 0, moment = 0;
         for (const CellPart& part : parts) {
-            const auto light = lightOf<double>(part, centre, std::clamp(6 * centre - 3, -1., 1.));
+            const double slope = std::clamp(6 * centre - 3, -1., 1.);
+            const auto light = PartLight<double>(part).of<double>({slope, centre - 0.5 - slope / 6});
             amount += light.share;
             moment += light.share * positions[part.node] + light.far * (positions[part.node + 1] - positions[part.node]);
         }
