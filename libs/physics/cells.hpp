@@ -125,22 +125,25 @@ struct CellPart {
 ///   bounds  [cells + 1], m, along the ray     nodes  [2 or more], m, not decreasing, from the first bound to the last
 inline void cutAtNodes(const std::vector<double>& bounds, const std::vector<double>& nodes, std::vector<CellPart>& parts)
 {
-    parts.clear();
+    const int last = static_cast<int>(nodes.size()) - 2;
+    parts.resize(bounds.size() + nodes.size());
+    CellPart* part = parts.data();
+    const auto perGap = [&](int k) { return nodes[k + 1] > nodes[k] ? 1 / (nodes[k + 1] - nodes[k]) : 0.; };
     int k = 0;
+    double gaps = perGap(0);
     for (std::size_t c = 0; c + 1 < bounds.size(); ++c) {
-        const double from = bounds[c], length = bounds[c + 1] - from;
-        for (float begin = 0; begin < 1; ++k) {
-            const bool last = k + 2 >= static_cast<int>(nodes.size());
-            const float end = last ? 1.f : static_cast<float>(std::clamp((nodes[k + 1] - from) / length, 0., 1.));
-            const double gap = nodes[k + 1] - nodes[k];
+        const double from = bounds[c], length = bounds[c + 1] - from, cells = 1 / length;
+        for (float begin = 0; begin < 1;) {
+            const float end = k >= last ? 1.f : static_cast<float>(std::clamp((nodes[k + 1] - from) * cells, 0., 1.));
             if (end > begin)
-                parts.push_back({static_cast<int>(c), k, begin, end, gap > 0 ? static_cast<float>((from - nodes[k]) / gap) : 0.f,
-                                 gap > 0 ? static_cast<float>(length / gap) : 0.f});
+                *part++ = {
+                    static_cast<int>(c), k, begin, end, static_cast<float>((from - nodes[k]) * gaps), static_cast<float>(length * gaps)};
             begin = std::max(begin, end);
-            if (begin >= 1)
-                break;
+            if (begin < 1)
+                gaps = perGap(++k);
         }
     }
+    parts.resize(static_cast<std::size_t>(part - parts.data()));
 }
 
 /// How the light of a cell with a given centre (0..1 of the cell) lies along it: linearly. Were all of it put at the centre, nodes that are

@@ -1,5 +1,5 @@
 #pragma once
-// Sixteen wavelengths at a time: the compiler's vector type, and the exponential function on it.
+// Eight wavelengths at a time: the compiler's vector type, and the exponential function on it.
 
 #include "base/lanes.hpp"
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace showmysky::lanes {
 
-constexpr int count = 16;
+constexpr int count = 8;
 using Lanes = float __attribute__((vector_size(count * sizeof(float))));
 using Integers = std::int32_t __attribute__((vector_size(count * sizeof(std::int32_t))));
 
@@ -19,7 +19,7 @@ using Integers = std::int32_t __attribute__((vector_size(count * sizeof(std::int
 
 SKY_INLINE Lanes all(float x) { return x - Lanes{}; }
 
-/// Wavelengths in steps of sixteen, the last step filled up with zeros.
+/// Wavelengths in steps of eight, the last step filled up with zeros.
 struct alignas(count * sizeof(float)) Block { // without AVX the compiler would align less than variants with AVX take for granted
     Lanes v;
 };
@@ -43,10 +43,9 @@ Blocks toBlocks(const Real* values, std::size_t rows, int wavelengths, double fa
 
 /// e^x with a relative error below 3e-7; x is held within -87..87.
 /// 2^n e^r with |r| <= ln(2) / 2, e^r by its series: the first term left out, r^7 / 7!, is below 1.3e-7.
-SKY_INLINE Lanes exponential(Lanes x)
+SKY_INLINE Lanes exponential(const Lanes& of)
 {
-    x = x < -87.f ? all(-87.f) : x;
-    x = x > 87.f ? all(87.f) : x;
+    const Lanes raised = of < -87.f ? all(-87.f) : of, x = raised > 87.f ? all(87.f) : raised;
     // Adding 1.5 * 2^23 rounds to an integer in the last digits. ln(2) in two parts keeps the digits of r.
     const Lanes n = (x * 1.44269504f + 12582912.f) - 12582912.f;
     const Lanes r = (x - n * 0.693359375f) + n * 2.12194440e-4f;

@@ -22,7 +22,7 @@ struct CellLoop {
 };
 
 /// Sum of the lanes.
-SKY_INLINE float total(Lanes x)
+SKY_INLINE float total(const Lanes& x)
 {
     float sums[count];
     for (int i = 0; i < count; ++i)
@@ -33,10 +33,10 @@ SKY_INLINE float total(Lanes x)
     return sums[0];
 }
 
-SKY_INLINE Lanes held(Lanes x, float low, float high)
+SKY_INLINE Lanes held(const Lanes& x, float low, float high)
 {
-    x = x < low ? all(low) : x;
-    return x > high ? all(high) : x;
+    const Lanes raised = x < low ? all(low) : x;
+    return raised > high ? all(high) : raised;
 }
 
 /// Attenuation cell by cell: the mean transmittance over each is T (1 - e^-tau) / tau.
