@@ -4,6 +4,8 @@
 //   bench_front front FILE.atmo REFERENCE.csv [--without SPECIES] [--orders N|all] [--name NAME] [--repeats N] [--presets LIST] [--against PRESET]
 //   bench_front cost FILE.atmo [--repeats N]
 //
+// LIST: presets, separated by commas. With a ! a preset stands alone, without its neighbours; fine:degree=10:nodes=28! is `fine` with that changed.
+//
 // Time: from the medium to the finished moments, everything that depends on the settings. Wall clock depends on what else the
 // machine does; so processor time of all threads stands beside it. Repeats are interleaved and the quickest counts.
 
@@ -20,6 +22,7 @@
 #include <chrono>
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <map>
 #include <sys/resource.h>
 
 using namespace sky;
@@ -68,27 +71,54 @@ Field compute(const gl::Api& api, const physics::Medium& medium, const solver::O
     return field;
 }
 
+using Number = int physics::MomentSettings::*;
+
+const std::map<std::string, std::vector<Number>>& numbers()
+{
+    using M = physics::MomentSettings;
+    static const std::map<std::string, std::vector<Number>> list{
+        {"altitudes", {&M::altitudes}},
+        {"suns", {&M::suns}},
+        {"degree", {&M::degree}},
+        {"directions", {&M::groundDirections, &M::limbDirections, &M::skyDirections, &M::azimuths}},
+        {"ground", {&M::groundDirections}},
+        {"limb", {&M::limbDirections}},
+        {"sky", {&M::skyDirections}},
+        {"azimuths", {&M::azimuths}},
+        {"nodes", {&M::nodes}},
+        {"directNodes", {&M::directNodes}},
+        {"leastAzimuthal", {&M::leastAzimuthal}}};
+    return list;
+}
+
 /// One setting changed at a time, a third down and half up.
 std::vector<Point> around(const std::string& preset, const physics::MomentSettings& s)
 {
-    struct Axis {
-        const char* name;
-        std::vector<int physics::MomentSettings::*> fields;
-    };
-    using M = physics::MomentSettings;
-    const std::vector<Axis> axes{
-        {"altitudes", {&M::altitudes}}, {"suns", {&M::suns}},
-        {"degree", {&M::degree}},       {"directions", {&M::groundDirections, &M::limbDirections, &M::skyDirections, &M::azimuths}},
-        {"nodes", {&M::nodes}},         {"directNodes", {&M::directNodes}}};
     std::vector<Point> points{{preset, s}};
-    for (const Axis& axis : axes)
+    for (const char* name : {"altitudes", "suns", "degree", "directions", "nodes", "directNodes"})
         for (const double factor : {2 / 3., 1.5}) {
-            Point point{preset + (factor < 1 ? ", fewer " : ", more ") + axis.name, s};
-            for (const auto field : axis.fields)
+            Point point{preset + (factor < 1 ? ", fewer " : ", more ") + name, s};
+            for (const Number field : numbers().at(name))
                 point.settings.*field = static_cast<int>(factor * (s.*field) + 0.5);
             points.push_back(point);
         }
     return points;
+}
+
+/// `NAME[:setting=value]...`
+physics::MomentSettings settingsOf(const std::string& preset, const physics::Medium& medium)
+{
+    const auto parts = CLI::detail::split(preset, ':');
+    physics::MomentSettings s = solver::qualityFor(parts.front(), medium).moments;
+    for (std::size_t i = 1; i < parts.size(); ++i) {
+        const auto halves = CLI::detail::split(parts[i], '=');
+        const auto found = numbers().find(halves.front());
+        if (halves.size() != 2 || found == numbers().end())
+            throw UsageError("--presets: `" + parts[i] + "` is no setting and its number, as in degree=10.");
+        for (const Number field : found->second)
+            s.*field = std::stoi(halves[1]);
+    }
+    return s;
 }
 
 struct World {
@@ -144,7 +174,7 @@ void front(const gl::Api& api, const std::string& name, const World& world, cons
     for (const std::string& preset : presets) {
         const bool alone = preset.back() == '!'; // without its neighbours
         const std::string plain = alone ? preset.substr(0, preset.size() - 1) : preset;
-        const auto more = around(plain, solver::qualityFor(plain, world.medium).moments);
+        const auto more = around(plain, settingsOf(plain, world.medium));
         points.insert(points.end(), more.begin(), alone ? more.begin() + 1 : more.end());
     }
     Seconds warmUp;
@@ -163,7 +193,7 @@ std::vector<bench::ReferenceRow> answeredBy(const gl::Api& api, const std::strin
                                             std::vector<bench::ReferenceRow> rows)
 {
     Seconds ignored;
-    const Field field = compute(api, world.medium, world.limit(), solver::qualityFor(preset, world.medium).moments, ignored);
+    const Field field = compute(api, world.medium, world.limit(), settingsOf(preset, world.medium), ignored);
     const auto sky = model::skyOfMoments(world.medium, field.optics, field.moments);
     std::erase_if(rows, [&](const auto& row) { return bench::wavelengthIndex(row, world.medium.wavelengthsNm) < 0; });
     for (auto& row : rows) {
@@ -257,7 +287,7 @@ int main(int argc, char** argv)
     }
     frontCommand->add_option("reference", reference, "CSV of reference radiances")->required();
     frontCommand->add_option("--name", name, "first column of the output");
-    frontCommand->add_option("--presets", presets, "with their neighbours; those with a ! alone");
+    frontCommand->add_option("--presets", presets, "with their neighbours; those with a ! alone; NAME:degree=10 changes a setting");
     frontCommand->add_option("--against", against, "take this preset's answers in place of the table's");
     app.require_subcommand(1);
     CLI11_PARSE(app, argc, argv);
