@@ -57,6 +57,12 @@ Air::Air(const physics::Medium& medium, int wavelength)
     }
 }
 
+const Glow& Air::glow() const
+{
+    std::call_once(glowOnce_, [this] { glow_ = std::make_unique<Glow>(*this); });
+    return *glow_;
+}
+
 void Air::at(double altitude, Local& local) const
 {
     const double bins = static_cast<double>(altitudeBins);

@@ -1,10 +1,13 @@
 #pragma once
 // The atmosphere at one wavelength as the random paths see it.
 
+#include "montecarlo/glow.hpp"
 #include "montecarlo/phase.hpp"
 #include "montecarlo/profile.hpp"
 #include "physics/medium.hpp"
 
+#include <memory>
+#include <mutex>
 #include <vector>
 
 namespace sky::montecarlo {
@@ -35,6 +38,8 @@ public:
 
     const Profile& profile() const { return profile_; }
     const Guide& guide() const { return guide_; }
+    /// Made when it is first asked for; from any thread.
+    const Glow& glow() const;
     const PhaseTable& phase(std::size_t species) const { return phases_[species]; }
     double groundAlbedo() const { return groundAlbedo_; }
     double sunAngularRadius() const { return sunAngularRadius_; }
@@ -54,6 +59,8 @@ private:
     };
     Profile profile_;
     Guide guide_;
+    mutable std::once_flag glowOnce_;
+    mutable std::unique_ptr<Glow> glow_;
     double groundAlbedo_, sunAngularRadius_;
     std::vector<double> altitudes_;
     std::vector<std::size_t> guideToInterval_;

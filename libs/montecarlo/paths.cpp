@@ -17,14 +17,21 @@ constexpr double heavy = 2;
 constexpr double aimedShare = 0.15; // of directions after a scattering that are drawn about the Sun
 constexpr double peaked = 15;       // forward value of a phase function, in units of the isotropic one, worth aiming for
 
+/// Share of directions after a scattering that are drawn where the sky is bright. Few of those lie within a peak.
+///   forward  value of the phase function, in units of the isotropic one
+double glowShare(double forward) { return 0.75 / (1 + forward / 8); }
+
 } // namespace
 
-PathTracer::PathTracer(const Air& air, const Scene& scene, Orders orders) : air_(air), scene_(scene), orders_(orders)
+PathTracer::PathTracer(const Air& air, const Scene& scene, Orders orders)
+    : air_(air), scene_(scene), orders_(orders),
+      eclipsedGlow_(scene.eclipse ? std::optional<Glow>(std::in_place, air, scene) : std::nullopt),
+      glow_(eclipsedGlow_ ? *eclipsedGlow_ : air.glow())
 {
     firstRay_ = rayFrom(air_.profile().planetRadius(), scene_.camera, scene_.view);
     air_.profile().trace(firstRay_, firstLeg_);
     // The ground in direct view is a layer of its own: the first event is in the air.
-    prepare(scene_.camera, scene_.view, firstRay_, firstLeg_, 0, true, firstChoice_);
+    prepare(scene_.camera, scene_.view, firstRay_, firstLeg_, 0, wantedAt(1), firstChoice_);
 }
 
 double PathTracer::batchMean(Random& random, int paths)
@@ -46,7 +53,7 @@ double PathTracer::batchMean(Random& random, int paths)
     return sum / paths;
 }
 
-void PathTracer::prepare(const Place& place, Vec direction, const Ray& ray, const Leg& leg, double groundAlbedo, bool guide,
+void PathTracer::prepare(const Place& place, Vec direction, const Ray& ray, const Leg& leg, double groundAlbedo, Wanted wanted,
                          Choice& choice) const
 {
     const double radius = air_.profile().planetRadius();
@@ -55,6 +62,11 @@ void PathTracer::prepare(const Place& place, Vec direction, const Ray& ray, cons
     const auto muSunAt = [&](double s) { return (upSun + s * alongSun) / std::sqrt(radius * radius + ray.at(s)); };
     const auto bright = [&](double s) {
         return scene_.eclipse ? scene_.eclipse->guess((radius + place.altitude) * place.up + s * direction) : 1.0;
+    };
+    const auto lightAt = [&](int shell, double s, double sunlit) {
+        const double muSun = muSunAt(s);
+        return (wanted.direct ? sunlit * air_.guide()(shell, muSun) * bright(s) : 0) +
+               (wanted.scattered ? glow_.fromAllSides(shell, muSun) : 0);
     };
     // Here `cumulative` holds the plain chance of each event and `weight` the guide's factor.
     choice.cumulative.clear();
@@ -68,18 +80,18 @@ void PathTracer::prepare(const Place& place, Vec direction, const Ray& ray, cons
     };
     for (const Segment& segment : leg.segments) {
         const double middle = 0.5 * (segment.begin + segment.end);
-        add(-transmittance * std::expm1(-segment.opticalDepth), air_.guide()(segment.shell, muSunAt(middle)) * bright(middle));
+        add(-transmittance * std::expm1(-segment.opticalDepth), lightAt(segment.shell, middle, 1));
         transmittance *= std::exp(-segment.opticalDepth);
     }
     if (leg.hitsGround && groundAlbedo > 0) {
         // Sunlight leaves the ground as mu / pi, the air as about 1 / (4 pi).
-        const double muSun = muSunAt(leg.length);
-        add(transmittance * groundAlbedo, 4 * std::max(0.0, muSun) * air_.guide()(0, muSun) * bright(leg.length));
+        add(transmittance * groundAlbedo, lightAt(0, leg.length, 4 * std::max(0.0, muSunAt(leg.length))));
     }
     choice.possible = plain > 0;
+    choice.plain = plain;
     if (!choice.possible)
         return;
-    const bool follow = guide && guided > 0;
+    const bool follow = guided > 0;
     const double share = follow ? plainShare : 1.0;
     double sum = 0;
     for (std::size_t i = 0; i < choice.weight.size(); ++i) {
@@ -163,18 +175,35 @@ Vec scatteredDirection(const Air& air, Vec direction, const Local& local, double
     return turned(direction, std::cos(sample.angle), std::sin(sample.angle), 2 * pi * u2);
 }
 
-Vec PathTracer::nextDirection(Vec direction, double u1, double u2, Random& random, double& weight, double& aim) const
+Vec PathTracer::nextDirection(const Place& place, Vec direction, double u1, double u2, Random& random, double& weight) const
 {
-    const bool aims = 4 * pi * air_.scatteredAt(local_, 0) > peaked * local_.bright;
-    const Vec sun = scene_.sun.centre();
-    const bool aimed = aims && random.uniform() < aimedShare;
-    const Vec next = scatteredDirection(air_, aimed ? sun : direction, local_, u1, u2, weight);
-    if (aims && weight > 0) {
-        // Either way might have led here: the balance heuristic.
-        const double scattered = air_.scatteredAt(local_, angleBetween(next, direction));
-        aim = scattered / ((1 - aimedShare) * scattered + aimedShare * air_.scatteredAt(local_, angleBetween(next, sun)));
-        weight *= aim;
+    if (!(local_.bright > 0)) {
+        weight = 0;
+        return direction;
     }
+    const Vec sun = scene_.sun.centre();
+    const Glow::View view = weight < heavy ? glow_.viewFrom(place, sun) : Glow::View();
+    const double forward = 4 * pi * air_.scatteredAt(local_, 0) / local_.bright;
+    const double aimed = forward > peaked ? aimedShare : 0, guided = view.map ? glowShare(forward) : 0;
+    // What is left of u1 after the choice is as even as it was.
+    Vec next;
+    if (u1 < guided) {
+        next = glow_.direction(view, u1 / guided, u2);
+        weight *= local_.bright / local_.extinction;
+    } else {
+        next = scatteredDirection(air_, aimed > 0 && random.uniform() * (1 - guided) < aimed ? sun : direction, local_,
+                                  (u1 - guided) / (1 - guided), u2, weight);
+    }
+    if (!(weight > 0))
+        return next;
+    // Each way might have led here: the balance heuristic.
+    const double scattered = air_.scatteredAt(local_, angleBetween(next, direction));
+    double likely = (1 - aimed - guided) * scattered;
+    if (aimed > 0)
+        likely += aimed * air_.scatteredAt(local_, angleBetween(next, sun));
+    if (guided > 0)
+        likely += guided * glow_.density(view, next) * local_.bright;
+    weight *= scattered / likely;
     return next;
 }
 
@@ -185,7 +214,7 @@ double PathTracer::path(Random& random, const Decisions& decisions)
     const double radius = air_.profile().planetRadius();
     Place place = scene_.camera;
     Vec direction = scene_.view;
-    double weight = 1, radiance = 0, reference = 0;
+    double weight = 1, radiance = 0, left = 1, reference = 1;
     bool onGround = advance(place, direction, firstRay_, firstLeg_, firstChoice_, decisions[0], weight);
     for (int order = 1;; ++order) {
         if (!onGround)
@@ -197,30 +226,32 @@ double PathTracer::path(Random& random, const Decisions& decisions)
         if (order == orders_.last)
             return radiance;
 
-        double aim = 1; // the factor of the weight that only says how likely this direction was made
+        const double scattered = onGround ? 1 : local_.bright / local_.extinction; // the ground's albedo is in the weight already
         const double u1 = order == 1 ? decisions[1] : random.uniform();
         const double u2 = order == 1 ? decisions[2] : random.uniform();
-        if (onGround) // Lambert's law: the sine squared is uniform. The albedo is in the weight already.
+        if (onGround) // Lambert's law: the sine squared is uniform
             direction = turned(place.up, std::sqrt(1 - u1), std::sqrt(u1), 2 * pi * u2);
         else
-            direction = nextDirection(direction, u1, u2, random, weight, aim);
+            direction = nextDirection(place, direction, u1, u2, random, weight);
         if (!(weight > 0))
             return radiance;
 
         const Ray ray = rayFrom(radius, place, direction);
         air_.profile().trace(ray, leg_);
-        prepare(place, direction, ray, leg_, air_.groundAlbedo(), weight < heavy, choice_);
+        prepare(place, direction, ray, leg_, air_.groundAlbedo(), weight < heavy ? wantedAt(order + 1) : Wanted(), choice_);
         if (!choice_.possible)
             return radiance;
         onGround = advance(place, direction, ray, leg_, choice_, order == 1 ? decisions[3] : random.uniform(), weight);
 
-        // Russian roulette once events are being counted.
+        // Russian roulette once events are being counted, by what would be left of a path that follows no guide.
+        left *= scattered * choice_.plain;
         if (order < orders_.first)
-            reference = weight;
-        else if (const double judged = weight / aim, least = rouletteThreshold * reference; judged < least) {
-            if (random.uniform() * least >= judged)
+            reference = left;
+        else if (const double least = rouletteThreshold * reference; left < least) {
+            if (random.uniform() * least >= left)
                 return radiance;
-            weight = least * aim;
+            weight *= least / left;
+            left = least;
         }
     }
 }

@@ -1,10 +1,12 @@
 #pragma once
 // Random paths, followed backwards from the camera.
 
+#include "montecarlo/glow.hpp"
 #include "montecarlo/random.hpp"
 #include "montecarlo/single.hpp"
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace sky::montecarlo {
@@ -15,7 +17,7 @@ struct Orders {
     int last = 0;
 };
 
-/// Of a path's weight at its first counted event: paths of less end by chance, or go on with that much.
+/// Of what is left of a path, followed without guides, before its first counted event: paths of less end by chance, or go on with that much.
 constexpr double rouletteThreshold = 0.05;
 
 /// A random direction after a scattering of light that travels along `direction`; multiplies `weight` by the share that is scattered.
@@ -39,16 +41,23 @@ private:
     struct Choice {
         std::vector<double> cumulative; // of the probability
         std::vector<double> weight;     // what an event there stands for
+        double plain = 0;               // chance that a path meets anything
         bool possible = false;
     };
-    void prepare(const Place& place, Vec direction, const Ray& ray, const Leg& leg, double groundAlbedo, bool guide, Choice& choice) const;
+    /// Which light the event at the end of a leg may pass on: it goes where there is some.
+    struct Wanted {
+        bool direct = false, scattered = false;
+    };
+    Wanted wantedAt(int order) const { return {order >= orders_.first, order != orders_.last}; }
+    void prepare(const Place& place, Vec direction, const Ray& ray, const Leg& leg, double groundAlbedo, Wanted wanted,
+                 Choice& choice) const;
     /// Moves to the next event; returns whether it is on the ground. Multiplies `weight`.
     bool advance(Place& place, Vec direction, const Ray& ray, const Leg& leg, const Choice& choice, double u, double& weight) const;
     double path(Random& random, const Decisions& decisions);
-    /// Direction after a scattering. In peaked air some are drawn about the Sun, as if the light had come from there: else sunlight is met in
-    /// rare bright flashes, of which the standard error knows nothing (Buras, Mayer 2011, J. Quant. Spectrosc. Radiat. Transfer 112, 434).
-    ///   aim  set to the factor of the weight that this takes, at most 1 / (1 - the share drawn so)
-    Vec nextDirection(Vec direction, double u1, double u2, Random& random, double& weight, double& aim) const;
+    /// Direction after a scattering. Some are drawn where the sky is bright. In peaked air some are drawn about the Sun, as if the light had come
+    /// from there: else sunlight is met in rare bright flashes, of which the standard error knows nothing (Buras, Mayer 2011, J. Quant. Spectrosc.
+    /// Radiat. Transfer 112, 434).
+    Vec nextDirection(const Place& place, Vec direction, double u1, double u2, Random& random, double& weight) const;
     /// A point of the solar disc as a place sees it; nothing where the Moon hides it.
     std::optional<Vec> sunPoint(const Place& place, Random& random) const;
     double sunlightAtAir(const Place& place, Vec direction, const Local& local, Random& random) const;
@@ -57,6 +66,8 @@ private:
     const Air& air_;
     Scene scene_;
     Orders orders_;
+    std::optional<Glow> eclipsedGlow_;
+    const Glow& glow_;
     Ray firstRay_;
     Leg firstLeg_, leg_;
     Choice firstChoice_, choice_;

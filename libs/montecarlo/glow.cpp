@@ -1,0 +1,269 @@
+#include "montecarlo/glow.hpp"
+
+#include "base/angles.hpp"
+#include "montecarlo/air.hpp"
+#include "montecarlo/single.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace sky::montecarlo {
+namespace {
+
+using base::pi;
+
+// A compromise: maps twice as fine gain little, and take four times as long to make.
+constexpr std::size_t levels = 16, bandCount = 20, sectorCount = 12, suns = 48, sunBins = 2048;
+constexpr double bandCrowding = 3, sunCrowding = 4; // towards the horizon: a of sinh(a v)
+constexpr int events = 3;                           // of light scattered more than once
+
+/// Angles from -pi/2 to pi/2, crowded about 0, at v in -1 .. 1.
+double crowded(double v, double a) { return 0.5 * pi * std::sinh(a * v) / std::sinh(a); }
+
+} // namespace
+
+/// A line of sight: how much of the light that meets its parts reaches the viewer.
+struct Glow::Sight {
+    struct Part {
+        int shell;
+        double distance, inverseRadius; // m, 1/m
+        double share;                   // of the light that meets it here
+    };
+    Place place;
+    double mu = 0;
+    std::vector<Part> parts;
+    double ground = 0, groundDistance = 0; // the same of the ground
+    std::vector<double> species;           // their parts in all that is scattered
+};
+
+Glow::Glow(const Air& air)
+{
+    layOut(air);
+    for (std::size_t i = 0; i < suns; ++i)
+        sunCosines_.push_back(std::sin(crowded((2. * static_cast<double>(i) + 1) / suns - 1, sunCrowding)));
+    for (std::size_t i = 0; i < sunBins; ++i) {
+        const double elevation = std::asin((2. * static_cast<double>(i) + 1) / sunBins - 1);
+        const double v = std::asinh(elevation * std::sinh(sunCrowding) / (0.5 * pi)) / sunCrowding;
+        sunOfBin_.push_back(static_cast<std::size_t>(std::clamp((v + 1) * suns / 2, 0., suns - 1.)));
+    }
+    fill(air, nullptr);
+}
+
+Glow::Glow(const Air& air, const Scene& scene)
+{
+    layOut(air);
+    sunCosines_ = {dot(scene.camera.up, scene.sun.centre())};
+    sunOfBin_ = {0};
+    fill(air, scene.eclipse ? &*scene.eclipse : nullptr);
+}
+
+void Glow::layOut(const Air& air)
+{
+    const Profile& profile = air.profile();
+    for (std::size_t i = 0; i <= bandCount; ++i)
+        cosineEdges_.push_back(std::sin(crowded(2. * static_cast<double>(i) / bandCount - 1, bandCrowding)));
+    for (std::size_t i = 0; i <= sectorCount; ++i) {
+        azimuthEdges_.push_back(pi * std::pow(static_cast<double>(i) / sectorCount, 1.5));
+        azimuthCosines_.push_back(std::cos(azimuthEdges_.back()));
+    }
+    // Half of the levels by optical depth, half by altitude.
+    Leg vertical;
+    profile.trace(rayFrom(profile.planetRadius(), {0, {0, 0, 1}}, {0, 0, 1}), vertical);
+    const double depth = std::max(vertical.opticalDepth, 1e-300);
+    double before = 0;
+    for (const Segment& segment : vertical.segments) {
+        const double after = before + 0.5 * segment.opticalDepth / depth + 0.5 * (segment.end - segment.begin) / vertical.length;
+        for (double next;
+             (next = (static_cast<double>(levelAltitudes_.size()) + 0.5) / levels) <= after && levelAltitudes_.size() < levels;)
+            levelAltitudes_.push_back(segment.begin + (segment.end - segment.begin) * (next - before) / (after - before));
+        before = after;
+    }
+    for (std::size_t i = 0; i + 1 < levelAltitudes_.size(); ++i)
+        levelEdges_.push_back(0.5 * (levelAltitudes_[i] + levelAltitudes_[i + 1]));
+    for (int shell = 0; shell < profile.shellCount(); ++shell)
+        levelOfShell_.push_back(static_cast<std::size_t>(
+            std::upper_bound(levelEdges_.begin(), levelEdges_.end(), profile.middleAltitude(shell)) - levelEdges_.begin()));
+}
+
+double Glow::solidAngle(std::size_t band, std::size_t sector) const
+{
+    return 2 * (cosineEdges_[band + 1] - cosineEdges_[band]) * (azimuthEdges_[sector + 1] - azimuthEdges_[sector]);
+}
+
+std::size_t Glow::sunOf(double muSun) const
+{
+    const auto bins = static_cast<double>(sunOfBin_.size());
+    return sunOfBin_[static_cast<std::size_t>(std::clamp((muSun + 1) * 0.5 * bins, 0., bins - 1))];
+}
+
+Glow::Sight Glow::sightAt(const Air& air, std::size_t level, std::size_t band) const
+{
+    const double radius = air.profile().planetRadius();
+    Sight sight;
+    sight.place = {levelAltitudes_[level], {0, 0, 1}};
+    sight.mu = 0.5 * (cosineEdges_[band] + cosineEdges_[band + 1]);
+    const Ray ray = rayFrom(radius, sight.place, {std::sqrt(1 - sight.mu * sight.mu), 0, sight.mu});
+    Leg leg;
+    air.profile().trace(ray, leg);
+    double transmittance = 1;
+    Local local;
+    for (const Segment& segment : leg.segments) {
+        const double chance = -transmittance * std::expm1(-segment.opticalDepth), middle = 0.5 * (segment.begin + segment.end);
+        transmittance *= std::exp(-segment.opticalDepth);
+        air.at(air.profile().middleAltitude(segment.shell), local);
+        if (!(local.bright > 0))
+            continue;
+        const double share = chance * local.bright / local.extinction;
+        sight.parts.push_back({segment.shell, middle, 1 / std::sqrt(radius * radius + ray.at(middle)), share});
+        sight.species.resize(local.scattering.size());
+        for (std::size_t i = 0; i < local.scattering.size(); ++i)
+            sight.species[i] += chance * local.scattering[i] / local.extinction;
+    }
+    const double all = std::accumulate(sight.species.begin(), sight.species.end(), 0.);
+    for (double& share : sight.species)
+        share /= all;
+    if (leg.hitsGround) {
+        sight.ground = transmittance * air.groundAlbedo();
+        sight.groundDistance = leg.length;
+    }
+    return sight;
+}
+
+double Glow::brightness(const Air& air, const Sight& sight, double muSun, double azimuth, const Eclipse* eclipse) const
+{
+    const double radius = air.profile().planetRadius(), start = radius + sight.place.altitude;
+    const double sine = std::sqrt(1 - sight.mu * sight.mu);
+    const double nu = std::clamp(sight.mu * muSun + sine * std::sqrt(1 - muSun * muSun) * std::cos(azimuth), -1., 1.);
+    const Vec direction{sine * std::cos(azimuth), sine * std::sin(azimuth), sight.mu};
+    double phase = 0;
+    for (std::size_t i = 0; i < sight.species.size(); ++i)
+        phase += sight.species[i] * air.phase(i).value(std::acos(nu));
+    const auto sunlight = [&](int shell, double mu, double s) {
+        return air.guide()(shell, mu) * (eclipse ? eclipse->guess(start * sight.place.up + s * direction) : 1);
+    };
+    double sum = 0;
+    for (const Sight::Part& part : sight.parts) {
+        const double mu = (start * muSun + part.distance * nu) * part.inverseRadius;
+        sum += part.share * (phase * sunlight(part.shell, mu, part.distance) + fromAllSides(part.shell, mu) / (4 * pi));
+    }
+    if (sight.ground > 0) {
+        const double mu = (start * muSun + sight.groundDistance * nu) / radius;
+        sum += sight.ground * (std::max(0., mu) / pi * sunlight(0, mu, sight.groundDistance) + fromAllSides(0, mu) / (4 * pi));
+    }
+    return sum;
+}
+
+void Glow::fill(const Air& air, const Eclipse* eclipse)
+{
+    const std::size_t heights = levelAltitudes_.size(), elevations = sunCosines_.size();
+    std::vector<Sight> sights;
+    for (std::size_t level = 0; level < heights; ++level)
+        for (std::size_t band = 0; band < bands(); ++band)
+            sights.push_back(sightAt(air, level, band));
+    maps_.assign(heights * elevations * mapSize(), 0);
+    diffuse_.assign(heights * elevations, 0);
+    std::vector<double> light(bands() * sectors());
+    for (int event = 0; event < events; ++event) {
+        std::vector<double> diffuse;
+        for (std::size_t level = 0; level < heights; ++level)
+            for (std::size_t sun = 0; sun < elevations; ++sun) {
+                for (std::size_t band = 0, bin = 0; band < bands(); ++band)
+                    for (std::size_t sector = 0; sector < sectors(); ++sector, ++bin) {
+                        const double azimuth = 0.5 * (azimuthEdges_[sector] + azimuthEdges_[sector + 1]);
+                        const auto from = [&](double side) {
+                            return brightness(air, sights[level * bands() + band], sunCosines_[sun], side * azimuth, eclipse);
+                        };
+                        // The Moon may stand beside the Sun's vertical.
+                        light[bin] = solidAngle(band, sector) * (eclipse ? 0.5 * (from(1) + from(-1)) : from(1));
+                    }
+                diffuse.push_back(std::accumulate(light.begin(), light.end(), 0.));
+                draw(light, mapOf(level, sun));
+            }
+        diffuse_ = diffuse;
+    }
+}
+
+void Glow::draw(const std::vector<double>& light, float* map) const
+{
+    const double all = std::accumulate(light.begin(), light.end(), 0.);
+    double below = 0;
+    for (std::size_t band = 0; band < bands(); ++band) {
+        const auto first = light.begin() + static_cast<std::ptrdiff_t>(band * sectors());
+        const double inBand = std::accumulate(first, first + static_cast<std::ptrdiff_t>(sectors()), 0.);
+        map[band] = static_cast<float>(all > 0 ? (below += inBand) / all : 0);
+        double aside = 0;
+        for (std::size_t sector = 0; sector < sectors(); ++sector)
+            map[bands() + band * sectors() + sector] =
+                static_cast<float>(inBand > 0 ? (aside += first[static_cast<std::ptrdiff_t>(sector)]) / inBand : 0);
+    }
+}
+
+double Glow::fromAllSides(int shell, double muSun) const
+{
+    return diffuse_[levelOfShell_[static_cast<std::size_t>(shell)] * sunCosines_.size() + sunOf(muSun)];
+}
+
+Glow::View Glow::viewFrom(const Place& place, Vec sun) const
+{
+    View view;
+    const double muSun = dot(place.up, sun);
+    const auto level =
+        static_cast<std::size_t>(std::upper_bound(levelEdges_.begin(), levelEdges_.end(), place.altitude) - levelEdges_.begin());
+    const float* map = mapOf(level, sunOf(muSun));
+    if (!(map[bands() - 1] > 0))
+        return view;
+    view.map = map;
+    view.up = place.up;
+    const Vec horizontal = sun - muSun * place.up;
+    view.towards = length(horizontal) > 1e-9 ? normalized(horizontal) : perpendicular(place.up);
+    view.side = cross(place.up, view.towards);
+    return view;
+}
+
+namespace {
+
+/// The bin of a cumulative distribution that u in 0 .. 1 falls into; u becomes its place therein, `share` the bin's.
+std::size_t binOf(const float* cumulative, std::size_t count, double& u, double& share)
+{
+    const double target = u * static_cast<double>(cumulative[count - 1]);
+    const auto i = std::min(
+        static_cast<std::size_t>(std::upper_bound(cumulative, cumulative + count, static_cast<float>(target)) - cumulative), count - 1);
+    const double before = i > 0 ? static_cast<double>(cumulative[i - 1]) : 0;
+    share = static_cast<double>(cumulative[i]) - before;
+    u = std::clamp((target - before) / share, 0., 1.);
+    return i;
+}
+
+} // namespace
+
+Vec Glow::direction(const View& view, double u1, double u2) const
+{
+    double share = 0;
+    const std::size_t band = binOf(view.map, bands(), u1, share);
+    const double side = u2 < 0.5 ? 1 : -1;
+    u2 = 2 * u2 - (u2 < 0.5 ? 0 : 1);
+    const std::size_t sector = binOf(view.map + bands() + band * sectors(), sectors(), u2, share);
+    const double mu = std::lerp(cosineEdges_[band], cosineEdges_[band + 1], u1);
+    const double azimuth = side * std::lerp(azimuthEdges_[sector], azimuthEdges_[sector + 1], u2);
+    const double sine = std::sqrt(std::max(0., 1 - mu * mu));
+    return normalized(mu * view.up + sine * (std::cos(azimuth) * view.towards + std::sin(azimuth) * view.side));
+}
+
+double Glow::density(const View& view, Vec direction) const
+{
+    const double mu = dot(view.up, direction), sine = std::sqrt(std::max(0., 1 - mu * mu));
+    const double cosAzimuth = sine > 0 ? std::clamp(dot(view.towards, direction) / sine, -1., 1.) : 1;
+    const auto band =
+        static_cast<std::size_t>(std::upper_bound(cosineEdges_.begin() + 1, cosineEdges_.end() - 1, mu) - cosineEdges_.begin()) - 1;
+    const auto sector =
+        static_cast<std::size_t>(std::upper_bound(azimuthCosines_.begin() + 1, azimuthCosines_.end() - 1, cosAzimuth, std::greater<>()) -
+                                 azimuthCosines_.begin()) -
+        1;
+    const auto shareOf = [](const float* cumulative, std::size_t i) {
+        return static_cast<double>(cumulative[i]) - (i > 0 ? static_cast<double>(cumulative[i - 1]) : 0);
+    };
+    return shareOf(view.map, band) * shareOf(view.map + bands() + band * sectors(), sector) / solidAngle(band, sector);
+}
+
+} // namespace sky::montecarlo
