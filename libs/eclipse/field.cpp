@@ -45,15 +45,15 @@ struct Scratch {
 };
 
 ScatteredField::State::State(std::shared_ptr<const AirRays> rays, const physics::SunTable& sun_, const physics::EclipseBodies& bodies,
-                             const Orders& orders_, VisibleShare visible_)
-    : air(std::move(rays)), sun(sun_), orders(orders_), visible(std::move(visible_)), frame(bodies),
+                             const Orders& orders_, SunlightLeft left)
+    : air(std::move(rays)), sun(sun_), orders(orders_), sunlightLeft(std::move(left)), frame(bodies),
       grid(makeGrid(frame, air->settings)), fine{grid.x.refined(std::max(1, air->settings.sunlightRefinement)),
                                                  grid.y.refined(std::max(1, air->settings.sunlightRefinement))},
       turn(air->settings.azimuths, air->degree)
 {
-    if (!visible) {
+    if (!sunlightLeft) {
         const auto shadow = physics::singlePrecision(physics::makeShadow(bodies));
-        visible = [shadow](const std::array<float, 3>& point) { return shadow.visible(point); };
+        sunlightLeft = [shadow](const std::array<float, 3>& point) { return shadow.visibleSun(point); };
     }
     for (const float y : grid.y.points())
         for (const float x : grid.x.points())
@@ -69,15 +69,19 @@ void ScatteredField::State::shine()
     sunlight.assign(groups * levelCount * finePoints, Lane{});
     sunnyGround.assign(groups * finePoints, Lane{});
     spread(fine.y.count(), [&](int j) {
-        std::vector<double> light(static_cast<std::size_t>(air->wavelengths));
-        const auto put = [&](Lanes& lights, std::size_t index, std::size_t stride, float share) {
-            for (double& value : light)
-                value = value > darkness ? value : 0;
+        std::vector<double> light(static_cast<std::size_t>(air->wavelengths)), left(light);
+        // One half of a lane is what the Moon leaves, the other all of it.
+        const auto put = [&](Lanes& lights, std::size_t index, std::size_t stride, double share) {
+            for (std::size_t w = 0; w < light.size(); ++w) {
+                light[w] = light[w] > darkness ? light[w] : 0;
+                left[w] = std::min(light[w], share * left[w]);
+            }
             for (std::size_t g = 0; g < groups; ++g) {
-                Lane& lane = lights[g * stride + index];
+                Lane &lane = lights[g * stride + index], eclipsed;
                 fillLane(lane, light.data(), static_cast<int>(g), air->wavelengths);
+                fillLane(eclipsed, left.data(), static_cast<int>(g), air->wavelengths);
                 for (int i = 0; i < waves; ++i)
-                    lane[i] *= share;
+                    lane[i] = eclipsed[i];
             }
         };
         for (int i = 0; i < fine.x.count(); ++i) {
@@ -90,12 +94,21 @@ void ScatteredField::State::shine()
                 sun.transmittance(altitude, muSun, light.data());
                 if (*std::max_element(light.begin(), light.end()) <= darkness)
                     continue;
-                const Vector place = frame.position(axes, altitude);
-                const float share = std::clamp(
-                    visible({static_cast<float>(place[0]), static_cast<float>(place[1]), static_cast<float>(place[2])}), 0.f, 1.f);
+                const Vector exact = frame.position(axes, altitude);
+                const std::array<float, 3> place{static_cast<float>(exact[0]), static_cast<float>(exact[1]), static_cast<float>(exact[2])};
+                const auto seen = sunlightLeft(place);
+                const auto share = static_cast<double>(std::clamp(seen.share, 0.f, 1.f));
+                double rise = 0; // of the middle of what is left of the Sun
+                for (std::size_t k = 0; k < 3; ++k)
+                    rise += static_cast<double>(seen.aside[k]) * axes.up[k];
+                if (rise == 0)
+                    left = light;
+                else
+                    sun.transmittance(altitude, muSun, left.data(), rise);
                 put(sunlight, level * finePoints + point, levelCount * finePoints, share);
                 if (level == 0) {
                     sun.groundIrradiance(muSun, light.data());
+                    sun.groundIrradiance(muSun, left.data(), rise);
                     put(sunnyGround, point, finePoints, share);
                 }
             }
@@ -249,8 +262,8 @@ bool ScatteredField::State::close()
 }
 
 ScatteredField::ScatteredField(std::shared_ptr<const AirRays> rays, const physics::SunTable& sun, const physics::EclipseBodies& bodies,
-                               const Orders& orders, VisibleShare visible)
-    : state_(std::make_unique<State>(std::move(rays), sun, bodies, orders, std::move(visible)))
+                               const Orders& orders, SunlightLeft left)
+    : state_(std::make_unique<State>(std::move(rays), sun, bodies, orders, std::move(left)))
 {
 }
 

@@ -24,8 +24,8 @@ class AirRays;
 std::shared_ptr<const AirRays> traceAir(const physics::Medium& medium, const physics::Profile& profile, const physics::Optics& optics,
                                         const FieldSettings& settings);
 
-/// Share of the Sun's disc that the Moon leaves at a point in the camera's frame, 0..1; called from several threads.
-using VisibleShare = std::function<float(const std::array<float, 3>& point)>;
+/// What the Moon leaves of the Sun at a point in the camera's frame; called from several threads.
+using SunlightLeft = std::function<physics::VisibleSun<float>(const std::array<float, 3>& point)>;
 
 /// A ray that is seen, from where it begins inside the air.
 struct ViewRay {
@@ -59,11 +59,11 @@ struct ViewLight {
 class ScatteredField
 {
 public:
-    /// \param visible  empty: a uniform disc, physics::Shadow::visible
+    /// \param left     empty: of a uniform disc, physics::Shadow::visibleSun
     /// \param sun      of the same medium and optics as the rays; must live as long as this
     /// throws RangeError as physics::makeShadow
     ScatteredField(std::shared_ptr<const AirRays> rays, const physics::SunTable& sun, const physics::EclipseBodies& bodies,
-                   const Orders& orders, VisibleShare visible = {});
+                   const Orders& orders, SunlightLeft left = {});
     ~ScatteredField();
     ScatteredField(ScatteredField&&) noexcept;
     ScatteredField& operator=(ScatteredField&&) noexcept;

@@ -12,12 +12,12 @@ struct Light {
 
 struct ScatteredField::State {
     State(std::shared_ptr<const AirRays> rays, const physics::SunTable& sun, const physics::EclipseBodies& bodies, const Orders& orders,
-          VisibleShare visible);
+          SunlightLeft left);
 
     std::shared_ptr<const AirRays> air;
     const physics::SunTable& sun;
     Orders orders;
-    VisibleShare visible;
+    SunlightLeft sunlightLeft;
     Frame frame;
     Grid grid, fine; ///< of the field; of sunlight
     Turn turn;

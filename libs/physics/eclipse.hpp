@@ -62,6 +62,11 @@ Real coveredFraction(const Discs<Real>& discs);
 template<class Real>
 Real visibleFraction(const Discs<Real>& discs);
 
+/// How far the middle of what the Moon leaves of an even disc stands from the Sun's centre, away from the Moon's, rad; 0 where it leaves nothing. Its
+/// light comes through the air from there.
+template<class Real>
+Real middleOfVisible(const Discs<Real>& discs);
+
 namespace eclipse_detail {
 
 /// Angles of the triangle of both centres and a point where the limbs cross. With a, b the radii, d the separation:
@@ -138,6 +143,29 @@ Real visibleFraction(const Discs<Real>& discs)
     return eclipse_detail::shares(discs).left;
 }
 
+/// The first moment of the lens about the Sun's centre: those of both segments about their own centres cancel (both are 2/3 of the cube of half the
+/// chord), and what is left is the Moon's segment times the separation. What is hidden and what is left balance.
+template<class Real>
+Real middleOfVisible(const Discs<Real>& discs)
+{
+    const Real a = discs.sunRadius, b = discs.moonRadius, d = discs.separation;
+    if (d >= a + b || d <= b - a)
+        return 0;
+    const Real left = visibleFraction(discs), ratio = b / a;
+    const Real segment =
+        ratio * ratio *
+        (d <= a - b ? Real(1)
+                    : eclipse_detail::withoutSine(2 * eclipse_detail::Triangle<Real>(a, b, d).atMoon) / (2 * Real(3.14159265358979323846)));
+    return left > 0 ? std::min(a, d * segment / left) : Real(0);
+}
+
+/// What a point sees of the Sun.
+template<class Real>
+struct VisibleSun {
+    Real share;                ///< of the disc, 0..1, the horizon not counted
+    std::array<Real, 3> aside; ///< of the middle of its light from the Sun's centre, rad, in the camera's frame
+};
+
 /// The shadow for one camera. `double` where it is made, `float` where many points are asked.
 template<class Real>
 struct ShadowOf {
@@ -169,6 +197,21 @@ struct ShadowOf {
     }
     /// Share of the Sun's disc that the Moon leaves, 0..1, the horizon not counted.
     Real visible(const std::array<Real, 3>& p) const { return visibleFraction(discs(p)); }
+
+    /// The same with where its light comes from.
+    VisibleSun<Real> visibleSun(const std::array<Real, 3>& p) const
+    {
+        const Discs<Real> seen = discs(p);
+        VisibleSun<Real> sun{visibleFraction(seen), {}};
+        const Real x = dot(across[0], p) - axis[0], y = dot(across[1], p) - axis[1], far = std::sqrt(x * x + y * y);
+        if (!(far > 0) || !(sun.share < 1))
+            return sun;
+        // The Moon is off the Sun towards the axis.
+        const Real middle = middleOfVisible(seen) / far;
+        for (std::size_t i = 0; i < 3; ++i)
+            sun.aside[i] = middle * (x * across[0][i] + y * across[1][i]);
+        return sun;
+    }
 
     /// Radius of the penumbra where a plane across the axis goes through a point at `depth` along it; of the umbra,
     /// negative beyond its tip (an annular eclipse).

@@ -13,23 +13,35 @@ SkyEvaluator::SkyEvaluator(const Medium& medium, const Profile& profile, const O
 {
 }
 
-void SkyEvaluator::singleAlong(const RayNodes& ray, const double muSun, const double nu, const bool exactPhase, double* const result) const
+void SkyEvaluator::singleAlong(const RayNodes& ray, const double muSun, const double nu, const bool exactPhase, double* const result,
+                               const std::vector<MiddleOfLight>& middles) const
 {
     const int wavelengths = optics_.wavelengths, scatterers = static_cast<int>(optics_.scatterers.size());
     std::vector<double> lit(scatterers * wavelengths, 0.), transmittance(wavelengths), phase(wavelengths);
+    std::vector<double> whole(scatterers, 0.), aside(scatterers, 0.); // phase functions are taken at the mean of all nodes
     for (size_t k = 0; k < ray.nodes.size(); ++k) {
         const auto& node = ray.nodes[k];
-        sun_.transmittance(node.altitude, node.sunScale * muSun + node.nuScale * nu, transmittance.data());
+        sun_.transmittance(node.altitude, node.sunScale * muSun + node.nuScale * nu, transmittance.data(),
+                           middles.empty() ? 0 : middles[k].rise);
         for (int i = 0; i < scatterers; ++i)
             for (int w = 0; w < wavelengths; ++w)
                 lit[i * wavelengths + w] += ray.weights[(k * scatterers + i) * wavelengths + w] * transmittance[w];
+        if (middles.empty())
+            continue;
+        for (int i = 0; i < scatterers; ++i)
+            for (int w = 0; w < wavelengths; ++w) {
+                const double light = ray.weights[(k * scatterers + i) * wavelengths + w] * transmittance[w];
+                whole[i] += light;
+                aside[i] += light * middles[k].nu;
+            }
     }
     std::vector<double> polynomials(optics_.degree + 1);
     legendre(optics_.degree, nu, polynomials.data());
     for (int i = 0; i < scatterers; ++i) {
         const int s = optics_.scatterers[i];
         if (exactPhase) {
-            phaseFunctionAt(medium_, medium_.species[s], std::acos(std::clamp(nu, -1., 1.)), phase.data());
+            const double middle = whole[i] > 0 ? nu + aside[i] / whole[i] : nu;
+            phaseFunctionAt(medium_, medium_.species[s], std::acos(std::clamp(middle, -1., 1.)), phase.data());
             for (int w = 0; w < wavelengths; ++w)
                 phase[w] /= 1 - optics_.truncation[s * wavelengths + w];
         } else {

@@ -6,6 +6,12 @@
 
 namespace sky::physics {
 
+/// Where the middle of the Sun's light stands for a node, less where the disc's does.
+struct MiddleOfLight {
+    double rise; ///< sine of the elevation: SunTable::transmittance
+    double nu;   ///< cosine of the angle between view and Sun
+};
+
 /// Radiance of the sky from moments, on the CPU in double precision: answers photometric questions without a GPU, and is
 /// the twin by which the shaders are checked. All results per unit solar irradiance (sr^-1).
 class SkyEvaluator
@@ -29,7 +35,9 @@ public:
     const SunTable& sun() const { return sun_; }
 
     /// Light scattered along given nodes of a ray: from direct sunlight, from the moments.
-    void singleAlong(const RayNodes& ray, double muSun, double nu, bool exactPhase, double* result) const;
+    ///   middles  [node], where an eclipse leaves light; empty: everywhere in the middle of the disc
+    void singleAlong(const RayNodes& ray, double muSun, double nu, bool exactPhase, double* result,
+                     const std::vector<MiddleOfLight>& middles = {}) const;
     void multipleAlong(const RayNodes& ray, const Moments& moments, double muSun, double nu, double* result) const;
 
 private:

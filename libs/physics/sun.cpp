@@ -162,20 +162,21 @@ double SunTable::axis(const double elevation, const double horizon) const
     return std::min(1., std::asinh(x / scale_) / axisLength(scale_, range));
 }
 
-void SunTable::transmittance(const double altitude, const double muSun, double* const result) const
+void SunTable::transmittance(const double altitude, const double muSun, double* const result, const double rise) const
 {
-    transmittance(row(altitude), horizonElevation(planet_, altitude), std::asin(std::clamp(muSun, -1., 1.)), result);
+    transmittance(row(altitude), horizonElevation(planet_, altitude), muSun, rise, result);
 }
 
-void SunTable::transmittance(const Row& place, const double horizon, const double elevation, double* const result) const
+void SunTable::transmittance(const Row& place, const double horizon, const double muSun, const double rise, double* const result) const
 {
+    const double elevation = std::asin(std::clamp(muSun, -1., 1.));
     const double visible = visibleDiscFraction(elevation - horizon, sunRadius_);
     if (visible <= 0) {
         std::fill(result, result + wavelengths_, 0.);
         return;
     }
     const auto [row, y] = place;
-    const double u = axis(elevation, horizon) * (elevations_ - 1);
+    const double u = axis(rise == 0 ? elevation : std::asin(std::clamp(muSun + rise, -1., 1.)), horizon) * (elevations_ - 1);
     const int k = std::min(static_cast<int>(u), elevations_ - 2);
     const double x = u - k;
     const double* a = &depth_[(size_t(row) * elevations_ + k) * wavelengths_];
@@ -186,10 +187,10 @@ void SunTable::transmittance(const Row& place, const double horizon, const doubl
     }
 }
 
-void SunTable::groundIrradiance(const double muSun, double* const result) const
+void SunTable::groundIrradiance(const double muSun, double* const result, const double rise) const
 {
-    const double cosine = horizontalSunCosine(muSun, sunRadius_);
-    transmittance(groundRow(), 0, std::asin(std::clamp(muSun, -1., 1.)), result);
+    const double cosine = horizontalSunCosine(muSun + rise, sunRadius_);
+    transmittance(groundRow(), 0, muSun, rise, result);
     for (int w = 0; w < wavelengths_; ++w)
         result[w] *= cosine;
 }

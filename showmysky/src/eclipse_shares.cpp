@@ -14,6 +14,9 @@ namespace {
 
 using sky::base::pi;
 
+/// A step of the sine of the Sun's elevation, less than a radius of any Sun that is eclipsed.
+constexpr double smallRise = 1e-3;
+
 } // namespace
 
 EclipseShares::EclipseShares(const Atmosphere& atmosphere, const physics::SunTable& sun) : atmosphere_(atmosphere), sun_(sun) {}
@@ -79,27 +82,38 @@ void EclipseShares::shine(Ray& ray, const double mu) const
     const auto scatterers = static_cast<std::size_t>(atmosphere_.scatterers());
     const auto wavelengths = static_cast<std::size_t>(atmosphere_.wavelengths());
     ray.light.assign(static_cast<std::size_t>(azimuths * nodes) * scatterers, Texel{});
-    std::vector<double> light(wavelengths);
+    ray.rising.assign(static_cast<std::size_t>(azimuths * nodes), Texel{});
+    std::vector<double> light(wavelengths), lifted(wavelengths);
     const double sines = std::sqrt(std::max(0., (1 - mu * mu) * (1 - muSun_ * muSun_)));
     for (std::size_t a = 0; a < azimuths; ++a) {
         const double nu = std::clamp(mu * muSun_ + sines * std::cos(pi * static_cast<double>(a) / (azimuths - 1)), -1., 1.);
         for (std::size_t k = 0; k < nodes; ++k) {
             const auto& place = ray.places[k];
-            sun_.transmittance(place.altitude, std::clamp(place.sunScale * muSun_ + place.nuScale * nu, -1., 1.), light.data());
+            const double muSun = std::clamp(place.sunScale * muSun_ + place.nuScale * nu, -1., 1.);
+            sun_.transmittance(place.altitude, muSun, light.data());
+            sun_.transmittance(place.altitude, muSun, lifted.data(), smallRise);
+            Texel before{}, after{};
             for (std::size_t i = 0; i < scatterers; ++i) {
                 Texel& sum = ray.light[(a * nodes + k) * scatterers + i];
                 const float* weight = &ray.weights[(k * scatterers + i) * wavelengths];
                 for (std::size_t w = 0; w < wavelengths; ++w) {
-                    const float seen = weight[w] * static_cast<float>(light[w]);
-                    for (std::size_t c = 0; c < 4; ++c)
+                    const float seen = weight[w] * static_cast<float>(light[w]), more = weight[w] * static_cast<float>(lifted[w]);
+                    for (std::size_t c = 0; c < 4; ++c) {
                         sum[c] += weights_[w][c] * seen;
+                        after[c] += weights_[w][c] * more;
+                    }
                 }
+                for (std::size_t c = 0; c < 4; ++c)
+                    before[c] += sum[c];
             }
+            for (std::size_t c = 0; c < 4; ++c)
+                if (before[c] > 0)
+                    ray.rising[a * nodes + k][c] = static_cast<float>(std::log(static_cast<double>(after[c] / before[c])) / smallRise);
         }
     }
 }
 
-void EclipseShares::line(const double coordinate, const int half, Line& result) const
+void EclipseShares::line(const double mu, const double coordinate, const int half, Line& result) const
 {
     const double position = std::clamp(coordinate, 0., 1.) * (halfViews - 1);
     const int k = std::min(static_cast<int>(position), halfViews - 2);
@@ -114,12 +128,25 @@ void EclipseShares::line(const double coordinate, const int half, Line& result) 
     if (!result.lit)
         return;
     result.distance.resize(nodes);
-    for (std::size_t i = 0; i < nodes; ++i)
-        result.distance[i] = near->distance[i] + share * (far->distance[i] - near->distance[i]);
-    result.light.resize(near->light.size());
-    for (std::size_t i = 0; i < result.light.size(); ++i)
-        for (std::size_t c = 0; c < 4; ++c)
-            result.light[i][c] = near->light[i][c] + share * (far->light[i][c] - near->light[i][c]);
+    result.ahead.resize(nodes);
+    result.up.resize(nodes);
+    const auto r = static_cast<float>(atmosphere_.planet().radius + altitude_), vertical = static_cast<float>(mu);
+    for (std::size_t i = 0; i < nodes; ++i) {
+        const float distance = near->distance[i] + share * (far->distance[i] - near->distance[i]);
+        // A node seen from the planet's centre.
+        const float height = r + distance * vertical, radius = std::sqrt(height * height + distance * distance * (1 - vertical * vertical));
+        result.distance[i] = distance;
+        result.ahead[i] = distance / radius;
+        result.up[i] = height / radius;
+    }
+    const auto between = [share](const std::vector<Texel>& a, const std::vector<Texel>& b, std::vector<Texel>& values) {
+        values.resize(a.size());
+        for (std::size_t i = 0; i < values.size(); ++i)
+            for (std::size_t c = 0; c < 4; ++c)
+                values[i][c] = a[i][c] + share * (b[i][c] - a[i][c]);
+    };
+    between(near->light, far->light, result.light);
+    between(near->rising, far->rising, result.rising);
 }
 
 } // namespace showmysky

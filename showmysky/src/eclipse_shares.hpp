@@ -25,11 +25,15 @@ public:
     /// The nodes of one line of sight: between two rays.
     struct Line {
         std::vector<float> distance; ///< [node], m from the camera
+        std::vector<float> ahead;    ///< [node], the zenith there: per horizontal part of the line's direction
+        std::vector<float> up;       ///< [node], and its vertical part at the camera
         std::vector<Texel> light;    ///< [azimuth][node][scatterer]: luminance of single scattering without phase function
+        std::vector<Texel> rising;   ///< [azimuth][node]: growth of its logarithm with the sine of the Sun's elevation
         bool lit = false;            ///< meets any air
     };
+    /// \param mu          cosine of its zenith angle
     /// \param coordinate  0 at the horizon to 1 at the end of the half, as physics::horizonAngleNodes
-    void line(double coordinate, int half, Line& result) const;
+    void line(double mu, double coordinate, int half, Line& result) const;
     /// Largest distance of a node, m.
     double reach() const { return reach_; }
 
@@ -40,6 +44,7 @@ private:
         std::vector<float> weights;                       // [node][scatterer][wavelength]
         std::vector<sky::physics::RayNodes::Node> places; // seen from the camera
         std::vector<Texel> light;                         // [azimuth][node][scatterer]
+        std::vector<Texel> rising;                        // [azimuth][node]
     };
     void trace(int ray, sky::physics::RayTracer& tracer);
     void shine(Ray& ray, double mu) const;

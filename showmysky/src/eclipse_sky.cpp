@@ -19,6 +19,19 @@ using sky::base::pi;
 constexpr int ratioHalfViews = 10, ratioAzimuths = 16;
 constexpr int sharesPerStep = 16;
 
+/// A texel as the compiler's vector.
+using Four = float __attribute__((vector_size(16)));
+Four four(const Texel& texel) { return Four{texel[0], texel[1], texel[2], texel[3]}; }
+
+/// e^x, held within -1.5 .. 1.5; good to 1e-4 where |x| < 0.2. Without a division.
+Four grown(const Four& x)
+{
+    constexpr Four most{1.5f, 1.5f, 1.5f, 1.5f};
+    const Four raised = x < -most ? -most : x, y = 0.25f * (raised > most ? most : raised), root = 1 + y * (1 + 0.5f * y);
+    const Four square = root * root;
+    return square * square;
+}
+
 bool same(const eclipse::Orders& a, const eclipse::Orders& b)
 {
     return a.orders == b.orders && a.all == b.all && a.tolerance == b.tolerance;
@@ -75,8 +88,10 @@ bool EclipseSky::followField()
 {
     if (field_)
         return field_->step();
-    field_.emplace(air_, sun_, scene_->bodies, scene_->orders,
-                   [this](const std::array<float, 3>& point) { return light_->luminance(point); });
+    field_.emplace(air_, sun_, scene_->bodies, scene_->orders, [this](const std::array<float, 3>& point) -> physics::VisibleSun<float> {
+        const auto seen = light_->seen(point);
+        return {seen.share[1], seen.aside};
+    });
     return false;
 }
 
@@ -170,14 +185,28 @@ SkyView EclipseSky::dimmed(const OrdinarySky& sky, const ViewTable* const eclips
             const double coordinate = std::asinh(std::abs(elevation - axes.horizon) / physics::horizonAngleScale) /
                                       std::asinh(axes.range(half) / physics::horizonAngleScale);
             const double mu = std::sin(elevation), flat = std::cos(elevation);
-            shares_.line(coordinate, half, line);
+            shares_.line(mu, coordinate, half, line);
             const auto toGround = static_cast<float>(half == 1 ? physics::distanceToGround(planet, altitude, mu) : 0);
             for (int a = 0; a < azimuths; ++a) {
                 const double relative = relatives[static_cast<std::size_t>(a)], azimuth = std::abs(relative) / pi;
                 const std::array<float, 3> direction{static_cast<float>(flat * std::cos(sunAzimuth_ + relative)),
                                                      static_cast<float>(flat * std::sin(sunAzimuth_ + relative)), static_cast<float>(mu)};
-                const auto lightAt = [&](float distance) {
-                    return light_->at({distance * direction[0], distance * direction[1], distance * direction[2]});
+                const double column = azimuth * (EclipseShares::azimuths - 1);
+                const int k = std::min(static_cast<int>(column), EclipseShares::azimuths - 2);
+                const auto x = static_cast<float>(column - k);
+                // Share of the light that a node had: of the disc, through the air from what is left of it.
+                const auto shareAt = [&](float distance, std::size_t node) {
+                    const auto seen = light_->seen({distance * direction[0], distance * direction[1], distance * direction[2]});
+                    Texel share = seen.share;
+                    if (!line.lit || share[1] <= 0 || share[1] >= 1)
+                        return share;
+                    const float rise =
+                        (seen.aside[0] * direction[0] + seen.aside[1] * direction[1]) * line.ahead[node] + seen.aside[2] * line.up[node];
+                    const Texel *near = &line.rising[static_cast<std::size_t>(k) * EclipseShares::nodes + node],
+                                *far = near + EclipseShares::nodes;
+                    const Four slope = four(*near) + x * (four(*far) - four(*near)), kept = four(share) * grown(rise * slope);
+                    const Four most = kept > 1.f ? Four{1, 1, 1, 1} : kept;
+                    return Texel{most[0], most[1], most[2], most[3]};
                 };
                 Texel& whole = result.whole.at(v, a);
                 const auto add = [&](const ViewTable& table, const Texel& factor) {
@@ -190,7 +219,7 @@ SkyView EclipseSky::dimmed(const OrdinarySky& sky, const ViewTable* const eclips
                 if (!multiple.empty())
                     add(multiple, eclipsed ? Texel{1, 1, 1, 1} : ratioAt(skyRatios_, coordinate, half, relative));
                 if (half == 1 && !direct.empty()) {
-                    add(direct, lightAt(toGround));
+                    add(direct, shareAt(toGround, EclipseShares::nodes - 1));
                     add(diffuse, ratioAt(groundRatios_, coordinate, half, relative));
                 }
                 add(glow, {1, 1, 1, 1});
@@ -198,13 +227,10 @@ SkyView EclipseSky::dimmed(const OrdinarySky& sky, const ViewTable* const eclips
                     continue;
                 std::fill(left.begin(), left.end(), Texel{});
                 std::fill(all.begin(), all.end(), Texel{});
-                const double column = azimuth * (EclipseShares::azimuths - 1);
-                const int k = std::min(static_cast<int>(column), EclipseShares::azimuths - 2);
-                const auto x = static_cast<float>(column - k);
                 const Texel *near = &line.light[static_cast<std::size_t>(k * EclipseShares::nodes) * scatterers],
                             *far = near + static_cast<std::size_t>(EclipseShares::nodes) * scatterers;
                 for (std::size_t n = 0; n < EclipseShares::nodes; ++n) {
-                    const Texel visible = lightAt(line.distance[n]);
+                    const Texel visible = shareAt(line.distance[n], n);
                     for (std::size_t i = 0; i < scatterers; ++i, ++near, ++far)
                         for (std::size_t c = 0; c < 4; ++c) {
                             const float light = (*near)[c] + x * ((*far)[c] - (*near)[c]);
@@ -225,13 +251,17 @@ SkyView EclipseSky::dimmed(const OrdinarySky& sky, const ViewTable* const eclips
     return result;
 }
 
-void EclipseSky::visibleAt(const std::array<double, 3>& direction, const double distance, double* const result) const
+physics::MiddleOfLight EclipseSky::visibleAt(const std::array<double, 3>& direction, const physics::RayNodes::Node& node,
+                                             double* const result) const
 {
-    const auto discs = shadow_.discs({distance * direction[0], distance * direction[1], distance * direction[2]});
-    if (scene_->limbDarkening)
-        law_.visible(discs, result);
-    else
-        std::fill_n(result, atmosphere_.wavelengths(), physics::visibleFraction(discs));
+    const SunSeen seen = sunSeen(shadow_, atmosphere_.planet(), scene_->bodies.cameraAltitude, direction, node);
+    if (scene_->limbDarkening) {
+        const double distance = (atmosphere_.planet().radius + scene_->bodies.cameraAltitude) * node.nuScale / node.sunScale;
+        law_.visible(shadow_.discs({distance * direction[0], distance * direction[1], distance * direction[2]}), result);
+    } else {
+        std::fill_n(result, atmosphere_.wavelengths(), seen.share);
+    }
+    return seen.middle;
 }
 
 EclipseSky::Ratios EclipseSky::ratios(const std::array<double, 3>& direction, const bool ground)

@@ -8,6 +8,7 @@
 
 #include "eclipse/field.hpp"
 #include "eclipse_shares.hpp"
+#include "physics/sky.hpp"
 #include "settings_used.hpp"
 #include "shadow_light.hpp"
 #include "sky_axes.hpp"
@@ -46,8 +47,9 @@ public:
 
     /// Share of the Sun's luminance left at a point in the camera's frame, m. All work must be done.
     float lightAt(const std::array<float, 3>& point) const { return light_->luminance(point); }
-    /// Share of the Sun's light left at a distance in a direction (unit vector), [wavelength].
-    void visibleAt(const std::array<double, 3>& direction, double distance, double* result) const;
+    /// Share of the Sun's light left at a node of a line of sight (unit vector), [wavelength], and where its middle stands.
+    sky::physics::MiddleOfLight visibleAt(const std::array<double, 3>& direction, const sky::physics::RayNodes::Node& node,
+                                          double* result) const;
     /// Share left of the light of higher orders in a direction, and of the diffuse light of the ground there,
     /// [wavelength]. The first question computes the field where pictures did without.
     struct Ratios {

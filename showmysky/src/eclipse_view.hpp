@@ -4,6 +4,7 @@
 #include "air_entry.hpp"
 #include "eclipse/field.hpp"
 #include "eclipse/frame.hpp"
+#include "physics/sky.hpp"
 
 namespace showmysky {
 
@@ -16,6 +17,24 @@ inline sky::eclipse::ViewRay eclipseViewRay(const sky::physics::Planet& planet, 
         return {planet.topOfAtmosphere, 1, false, 0};
     const double before = entry->outerShift > 0 ? sky::eclipse::groundDistance(planet.radius, entry->outerScale, entry->outerShift, mu) : 0;
     return {entry->altitude, entry->mu, ground, before};
+}
+
+/// What a point of the air sees of the Sun.
+struct SunSeen {
+    double share; ///< 0..1
+    sky::physics::MiddleOfLight middle;
+};
+
+/// At a node of a camera's line of sight; its scales are as seen from the camera.
+inline SunSeen sunSeen(const sky::physics::Shadow& shadow, const sky::physics::Planet& planet, double altitude,
+                       const std::array<double, 3>& direction, const sky::physics::RayNodes::Node& node)
+{
+    const double r = planet.radius + altitude, distance = r * node.nuScale / node.sunScale;
+    const std::array<double, 3> place{distance * direction[0], distance * direction[1], distance * direction[2]};
+    const auto sun = shadow.visibleSun(place);
+    // Upwards there: the place seen from the planet's centre.
+    const double rise = (sky::physics::Shadow::dot(sun.aside, place) + sun.aside[2] * r) * node.sunScale / r;
+    return {sun.share, {rise, sky::physics::Shadow::dot(sun.aside, direction)}};
 }
 
 /// True if camera, Sun and Moon of one model stand the same.

@@ -60,21 +60,20 @@ void EclipsePhotometry::radiance(const Photometer::View& view, const Moon& moon,
     if (!entry)
         return;
     const bool hitsGround = physics::hitsGround(planet, view.altitude, mu);
-    const auto visibleAt = [&](const physics::RayNodes::Node& node) {
-        const double distance = (planet.radius + view.altitude) * node.nuScale / node.sunScale;
-        return shadow.visible({distance * direction[0], distance * direction[1], distance * direction[2]});
-    };
+    const auto sunAt = [&](const physics::RayNodes::Node& node) { return sunSeen(shadow, planet, view.altitude, direction, node); };
     const std::size_t row = sky_.optics.scatterers.size() * wavelengths;
     physics::RayTracer tracer(sky_.profile, sky_.optics);
     auto ray = tracer.trace(entry->altitude, entry->mu, eclipseNodes, hitsGround);
     if (layers & Photometer::singleScattering) {
+        std::vector<physics::MiddleOfLight> middles(ray.nodes.size());
         for (std::size_t k = 0; k < ray.nodes.size(); ++k) {
             ray.nodes[k] = entry->node(ray.nodes[k]);
-            const double visible = visibleAt(ray.nodes[k]);
+            const SunSeen sun = sunAt(ray.nodes[k]);
+            middles[k] = sun.middle;
             for (std::size_t i = 0; i < row; ++i)
-                ray.weights[k * row + i] *= visible;
+                ray.weights[k * row + i] *= sun.share;
         }
-        sky_.evaluator.singleAlong(ray, muSun, nu, true, result);
+        sky_.evaluator.singleAlong(ray, muSun, nu, true, result, middles);
     }
     const bool multiple = (layers & Photometer::multipleScattering) && sky_.moments,
                ground = (layers & Photometer::zeroOrder) && hitsGround;
@@ -89,13 +88,14 @@ void EclipsePhotometry::radiance(const Photometer::View& view, const Moon& moon,
     }
     if (ground) {
         const auto there = entry->node(ray.ground);
-        const double muSunThere = std::clamp(there.sunScale * muSun + there.nuScale * nu, -1., 1.), visible = visibleAt(there);
+        const double muSunThere = std::clamp(there.sunScale * muSun + there.nuScale * nu, -1., 1.);
+        const SunSeen sun = sunAt(there);
         const auto addReflected = [&](const auto& share) {
             for (std::size_t w = 0; w < wavelengths; ++w)
                 result[w] += ray.groundTransmittance[w] * sky_.medium.groundAlbedo[w] / pi * share(w) * light[w];
         };
-        sky_.sun.groundIrradiance(muSunThere, light.data());
-        addReflected([&](std::size_t) { return visible; });
+        sky_.sun.groundIrradiance(muSunThere, light.data(), sun.middle.rise);
+        addReflected([&](std::size_t) { return sun.share; });
         if (sky_.moments) {
             sky_.moments->interpolateGround(muSunThere, light.data());
             addReflected([&](std::size_t w) { return groundRatio[w]; });

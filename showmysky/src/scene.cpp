@@ -530,8 +530,6 @@ std::vector<double> Scene::spectralRadiance(const std::array<double, 3>& directi
     physics::SkyEvaluator::Parts parts;
     // An eclipse has edges along the ray.
     const bool eclipse = settings_.eclipse == EclipseMode::on;
-    const double cameraRadius = atmosphere_->planet().radius + settings_.altitude;
-    const auto distanceOf = [&](const physics::RayNodes::Node& node) { return cameraRadius * node.nuScale / node.sunScale; };
     std::vector<double> visible(wavelengths, 1.);
     EclipseSky::Ratios ratios{visible, visible};
     if (eclipse) {
@@ -543,6 +541,7 @@ std::vector<double> Scene::spectralRadiance(const std::array<double, 3>& directi
     }
 
     auto ray = tracer.trace(entry->altitude, entry->mu, parts.singleNodes, ground);
+    std::vector<physics::MiddleOfLight> middles(eclipse ? ray.nodes.size() : 0);
     for (std::size_t k = 0; k < ray.nodes.size(); ++k) {
         ray.nodes[k] = entry->node(ray.nodes[k]);
         for (std::size_t i = 0; i < layers.single.size(); ++i)
@@ -550,23 +549,21 @@ std::vector<double> Scene::spectralRadiance(const std::array<double, 3>& directi
                 std::fill_n(&ray.weights[(k * layers.single.size() + i) * wavelengths], wavelengths, 0.);
         if (!eclipse)
             continue;
-        eclipse_->visibleAt(view, distanceOf(ray.nodes[k]), visible.data());
+        middles[k] = eclipse_->visibleAt(view, ray.nodes[k], visible.data());
         for (std::size_t i = 0; i < layers.single.size(); ++i)
             for (std::size_t w = 0; w < wavelengths; ++w)
                 ray.weights[(k * layers.single.size() + i) * wavelengths + w] *= visible[w];
     }
-    evaluator.singleAlong(ray, muSun, nu, true, result.data());
+    evaluator.singleAlong(ray, muSun, nu, true, result.data(), middles);
     if (layers.ground && ground) {
         const auto there = entry->node(ray.ground);
         const double muSunThere = std::clamp(there.sunScale * muSun + there.nuScale * nu, -1., 1.);
         std::vector<double> direct(wavelengths), diffuse(wavelengths, 0.);
-        sun_->groundIrradiance(muSunThere, direct.data());
+        std::fill(visible.begin(), visible.end(), 1.);
+        const double rise = eclipse ? eclipse_->visibleAt(view, there, visible.data()).rise : 0;
+        sun_->groundIrradiance(muSunThere, direct.data(), rise);
         if (moments_)
             moments_->interpolateGround(muSunThere, diffuse.data());
-        if (eclipse)
-            eclipse_->visibleAt(view, distanceOf(there), visible.data());
-        else
-            std::fill(visible.begin(), visible.end(), 1.);
         for (std::size_t w = 0; w < wavelengths; ++w)
             result[w] +=
                 ray.groundTransmittance[w] * medium.groundAlbedo[w] / pi * (visible[w] * direct[w] + ratios.ground[w] * diffuse[w]);

@@ -38,7 +38,11 @@ TEST_CASE("eclipse field: without an eclipse the ratio is exactly one")
 TEST_CASE("eclipse field: a Sun dimmed everywhere alike dims all orders alike")
 {
     const Earth earth;
-    const auto light = earth.solved(earth.bodies(0.6), {}, [](const auto&) { return 0.25f; }).view(earth.views(), azimuths);
+    const auto light = earth.solved(earth.bodies(0.6), {},
+                                    [](const auto&) {
+                                        return physics::VisibleSun<float>{0.25f, {}};
+                                    })
+                           .view(earth.views(), azimuths);
     for (std::size_t i = 0; i < light.eclipsed.size(); ++i)
         REQUIRE(light.eclipsed[i] == 0.25f * light.uneclipsed[i]); // a power of two: no rounding
 }

@@ -61,9 +61,9 @@ struct Earth {
         return b;
     }
 
-    ScatteredField solved(const physics::EclipseBodies& b, const Orders& orders = {}, VisibleShare visible = {}) const
+    ScatteredField solved(const physics::EclipseBodies& b, const Orders& orders = {}, SunlightLeft left = {}) const
     {
-        ScatteredField field(rays, sun, b, orders, std::move(visible));
+        ScatteredField field(rays, sun, b, orders, std::move(left));
         while (!field.step()) {
         }
         return field;

@@ -101,34 +101,44 @@ private:
     {
         const int wavelengths = air.optics.wavelengths, scatterers = static_cast<int>(air.optics.scatterers.size());
         const double nu = std::clamp(dot(from, towardsSun), -1., 1.);
-        std::vector<double> light(wavelengths), phases(scatterers * wavelengths);
+        std::vector<double> light(wavelengths), left(wavelengths), phases(scatterers * wavelengths);
         for (int i = 0; i < scatterers; ++i)
             physics::phaseFunctionAt(air.medium, air.medium.species[air.optics.scatterers[i]], std::acos(nu), &phases[i * wavelengths]);
         std::fill(uneclipsed.begin(), uneclipsed.end(), 0.);
         std::fill(eclipsed.begin(), eclipsed.end(), 0.);
-        const auto shareAt = [&](const RayNodes::Node& n) {
+        const auto sunAt = [&](const RayNodes::Node& n) {
             const double s = n.nuScale * (air.profile.planet().radius + n.altitude);
-            return shadow.visible({place[0] + s * from[0], place[1] + s * from[1], place[2] + s * from[2]});
+            return shadow.visibleSun({place[0] + s * from[0], place[1] + s * from[1], place[2] + s * from[2]});
+        };
+        const auto riseAt = [&](const RayNodes::Node& n, const Vector& offset) {
+            const double R = air.profile.planet().radius, r = R + n.altitude, s = n.nuScale * r;
+            double rise = offset[2] * R / r;
+            for (int i = 0; i < 3; ++i)
+                rise += offset[i] * (place[i] + s * from[i]) / r;
+            return rise;
         };
         for (std::size_t k = 0; k < ray.nodes.size(); ++k) {
             const auto& n = ray.nodes[k];
             sun.transmittance(n.altitude, n.sunScale * muSun + n.nuScale * nu, light.data());
-            const double share = shareAt(n);
+            const auto seen = sunAt(n);
+            sun.transmittance(n.altitude, n.sunScale * muSun + n.nuScale * nu, left.data(), riseAt(n, seen.aside));
             for (int i = 0; i < scatterers; ++i)
                 for (int w = 0; w < wavelengths; ++w) {
-                    const double scattered = ray.weights[(k * scatterers + i) * wavelengths + w] * light[w] * phases[i * wavelengths + w];
-                    uneclipsed[w] += scattered;
-                    eclipsed[w] += share * scattered;
+                    const double scattered = ray.weights[(k * scatterers + i) * wavelengths + w] * phases[i * wavelengths + w];
+                    uneclipsed[w] += scattered * light[w];
+                    eclipsed[w] += seen.share * scattered * left[w];
                 }
         }
         if (!ray.hitsGround)
             return;
-        sun.groundIrradiance(ray.ground.sunScale * muSun + ray.ground.nuScale * nu, light.data());
-        const double share = shareAt(ray.ground);
+        const double muSunThere = ray.ground.sunScale * muSun + ray.ground.nuScale * nu;
+        const auto seen = sunAt(ray.ground);
+        sun.groundIrradiance(muSunThere, light.data());
+        sun.groundIrradiance(muSunThere, left.data(), riseAt(ray.ground, seen.aside));
         for (int w = 0; w < wavelengths; ++w) {
-            const double reflected = ray.groundTransmittance[w] * air.medium.groundAlbedo[w] / pi * light[w];
-            uneclipsed[w] += reflected;
-            eclipsed[w] += share * reflected;
+            const double reflected = ray.groundTransmittance[w] * air.medium.groundAlbedo[w] / pi;
+            uneclipsed[w] += reflected * light[w];
+            eclipsed[w] += seen.share * reflected * left[w];
         }
     }
 

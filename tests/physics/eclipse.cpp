@@ -109,6 +109,32 @@ TEST_CASE("eclipse: what is left of the Sun against integration in extended prec
     }
 }
 
+TEST_CASE("eclipse: the middle of what is left of the Sun against strips of the disc")
+{
+    // Strips across the line through both centres; of each the Moon hides what is within its own chord.
+    const auto middle = [](double a, double b, double d) {
+        double left = 0, moment = 0;
+        constexpr int strips = 200000;
+        for (int i = 0; i < strips; ++i) {
+            const double x = a * (2 * (i + 0.5) / strips - 1), fromMoon = x + d; // the Moon stands at -d
+            const double sun = std::sqrt(a * a - x * x), moon = std::sqrt(std::max(0., b * b - fromMoon * fromMoon));
+            left += std::max(0., sun - moon);
+            moment += x * std::max(0., sun - moon);
+        }
+        return moment / left;
+    };
+    for (const double b : {0.3, 0.95, 1.0, 1.05, 2.})
+        for (const double t : {0.02, 0.1, 0.5, 0.9, 0.99}) {
+            const double nearest = std::max(0., b - 1), d = nearest + t * (1 + b - nearest);
+            CAPTURE(b, d);
+            CHECK(middleOfVisible(Discs<double>{1, b, d}) == Approx(middle(1, b, d)).epsilon(1e-4).margin(1e-9));
+        }
+    CHECK(middleOfVisible(Discs<double>{1, 1.05, 0.05 + 1e-6}) == Approx(1).epsilon(0.01)); // a thin lune is at the limb
+    CHECK(middleOfVisible(Discs<double>{1, 1.05, 0.04}) == 0);
+    CHECK(middleOfVisible(Discs<double>{1, 1.05, 2.05}) == 0);
+    CHECK(middleOfVisible(Discs<double>{1, 0.9, 0}) == 0);
+}
+
 TEST_CASE("eclipse: hidden and left add up to one, both monotone between exact contacts")
 {
     const auto sweep = [](auto a, auto b) {

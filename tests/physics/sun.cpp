@@ -1,5 +1,6 @@
 #include "physics/sun.hpp"
 #include "media.hpp"
+#include "physics/eclipse.hpp"
 #include "physics/quadrature.hpp"
 #include "physics/ray.hpp"
 #include <atomic>
@@ -29,8 +30,9 @@ struct Air {
         return result[wavelength];
     }
 
-    /// Mean over the disc by brute force: horizontal strips of the part above the horizon, each with its own ray.
-    double brute(double altitude, double elevation, int wavelength, bool onGround = false) const
+    /// Mean over the disc by brute force: horizontal strips of the part above the horizon, each with its own ray. A Moon of the same size
+    /// stands lower by `below` radii.
+    double brute(double altitude, double elevation, int wavelength, bool onGround = false, double below = 2) const
     {
         RayTracer tracer(profile, optics);
         const double radius = medium.sunAngularRadius, horizon = horizonElevation(profile.planet(), altitude);
@@ -48,7 +50,8 @@ struct Air {
             double tau = 0;
             for (int s = 0; s < optics.species; ++s)
                 tau += columns[s] * optics.extinction[s * optics.wavelengths + wavelength];
-            const double width = 2 * std::sqrt(radius * radius - y * y) * (b - a) / (pi * radius * radius);
+            const double hidden = std::sqrt(std::max(0., radius * radius - std::pow(y + below * radius, 2)));
+            const double width = 2 * std::max(0., std::sqrt(radius * radius - y * y) - hidden) * (b - a) / (pi * radius * radius);
             mean += width * std::exp(-tau) * (onGround ? std::sin(e) : 1);
         }
         return mean;
@@ -62,6 +65,23 @@ const Air& earth()
 }
 
 } // namespace
+
+TEST_CASE("direct sunlight: what the Moon leaves of a low Sun comes through the air from where it stands")
+{
+    const Air& air = earth();
+    const double radius = air.medium.sunAngularRadius;
+    std::vector<double> through(static_cast<std::size_t>(air.optics.wavelengths));
+    for (const double elevation : {2., 5., 20.})
+        for (const double below : {0.2, 0.7, 1.5})
+            for (const int w : {0, 2}) {
+                const double e = elevation * pi / 180, truth = air.brute(0, e, w, false, below);
+                const Discs<double> discs{radius, radius, below * radius};
+                air.sun.transmittance(0, std::sin(e), through.data(), middleOfVisible(discs) * std::cos(e));
+                CAPTURE(elevation, below, w);
+                // The second moment of a crescent is not the disc's.
+                CHECK(visibleFraction(discs) * through[static_cast<std::size_t>(w)] == Approx(truth).epsilon(elevation < 3 ? 0.02 : 2e-3));
+            }
+}
 
 TEST_CASE("direct sunlight: the table against the mean over the disc, through sunrise, from several altitudes")
 {
