@@ -1,6 +1,7 @@
 #include "solver/field.hpp"
 #include "base/lanes.hpp"
 #include "base/parallel.hpp"
+#include "physics/field_fold.hpp"
 #include "physics/harmonics.hpp"
 #include <algorithm>
 #include <cmath>
@@ -11,28 +12,6 @@ namespace sky::solver {
 namespace {
 
 constexpr double toLog2 = 1.44269504088896340736;
-
-/// One node under one Sun: `levels` are the field at the four altitudes of its stencil, [lm][stride] each.
-inline __attribute__((always_inline)) void foldSun(const float* const levels[4], const float weights[4],
-                                                   const float* __restrict coefficients, int degree, int azimuthal, int stride,
-                                                   float* __restrict out)
-{
-    const float* __restrict a = levels[0], * __restrict b = levels[1], * __restrict c = levels[2], * __restrict d = levels[3];
-    for (int w = 0; w < stride; ++w) {
-        out[w] = weights[0] * a[w] + weights[1] * b[w] + weights[2] * c[w] + weights[3] * d[w];
-        out[stride + w] = coefficients[w];
-    }
-    for (int i = 2 * stride; i < (azimuthal + 2) * stride; ++i)
-        out[i] = 0;
-    for (int l = 1; l <= degree; ++l)
-        for (int m = 0; m <= std::min(l, azimuthal); ++m) {
-            const int at = (l * (l + 1) / 2 + m) * stride;
-            float* __restrict term = out + (m + 1) * stride;
-            for (int w = 0; w < stride; ++w)
-                term[w] += coefficients[at + w] *
-                           (weights[0] * a[at + w] + weights[1] * b[at + w] + weights[2] * c[at + w] + weights[3] * d[at + w]);
-        }
-}
 
 /// The nodes of a ray in the air: Sun by Sun, since neighbouring nodes look at the same levels.
 ///   coefficients  [node][lm][stride]
@@ -49,9 +28,9 @@ void foldNodes(const FoldField& field, const ScatteredRays::FoldNode* nodes, int
                 levels[i] = &field.moments[(std::size_t(nodes[k].level[i]) * field.suns + sun) * values];
             float* out = target + (k * field.suns + sun) * (azimuthal + 2) * stride;
             if (stride == 16) // the usual number of wavelengths: loops that the compiler can unroll
-                foldSun(levels, nodes[k].weight, coefficients + k * values, degree, azimuthal, 16, out);
+                physics::foldNode(levels, nodes[k].weight, coefficients + k * values, degree, azimuthal, 16, out);
             else
-                foldSun(levels, nodes[k].weight, coefficients + k * values, degree, azimuthal, stride, out);
+                physics::foldNode(levels, nodes[k].weight, coefficients + k * values, degree, azimuthal, stride, out);
         }
 }
 

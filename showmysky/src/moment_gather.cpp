@@ -4,6 +4,7 @@
 #include "base/angles.hpp"
 #include "base/lanes.hpp"
 #include "base/parallel.hpp"
+#include "physics/field_fold.hpp"
 #include "physics/harmonics.hpp"
 #include "physics/table_axes.hpp"
 #include <algorithm>
@@ -38,26 +39,11 @@ void addProducts(const float* __restrict weights, const float* __restrict light,
             sums[i * stride + w] += weights[i * stride + w] * light[w];
 }
 
-/// One node of the field at one Sun: `levels` are the four altitudes of its stencil, [lm][stride] each.
+/// One node of the field at one Sun.
 SKY_WIDEST_VECTORS
-void foldNode(const float* const levels[4], const float weights[4], const float* __restrict coefficients, int degree, int stride,
-              float* __restrict out)
+void foldField(const float* const levels[4], const float weights[4], const float* coefficients, int degree, int stride, float* out)
 {
-    const float *a = levels[0], *b = levels[1], *c = levels[2], *d = levels[3];
-    for (int w = 0; w < stride; ++w) {
-        out[w] = weights[0] * a[w] + weights[1] * b[w] + weights[2] * c[w] + weights[3] * d[w];
-        out[stride + w] = coefficients[w];
-    }
-    for (int i = 2 * stride; i < (degree + 2) * stride; ++i)
-        out[i] = 0;
-    for (int l = 1, lm = 1; l <= degree; ++l)
-        for (int m = 0; m <= l; ++m, ++lm) {
-            const int at = lm * stride;
-            float* __restrict term = out + (m + 1) * stride;
-            for (int w = 0; w < stride; ++w)
-                term[w] += coefficients[at + w] *
-                           (weights[0] * a[at + w] + weights[1] * b[at + w] + weights[2] * c[at + w] + weights[3] * d[at + w]);
-        }
+    physics::foldNode(levels, weights, coefficients, degree, degree, stride, out);
 }
 
 /// Adds 2^level sum_m cos(m phi) term_m, all interpolated between four Suns.
@@ -220,7 +206,7 @@ const float* MomentGather::folded(Ray& ray, int node, int sun) const
             levels[i] = &field_[static_cast<std::size_t>((stencil.index[i] * suns_ + sun) * harmonics * stride_)];
             weights[i] = static_cast<float>(stencil.weight[i]);
         }
-        foldNode(levels, weights, &ray.coefficients[static_cast<std::size_t>(node * harmonics * stride_)], degree_, stride_, result);
+        foldField(levels, weights, &ray.coefficients[static_cast<std::size_t>(node * harmonics * stride_)], degree_, stride_, result);
         done = 1;
     }
     return result;

@@ -1,0 +1,36 @@
+#pragma once
+// The fold of docs/method 5: one node of a ray under one Sun, harmonics summed over l.
+
+#include "physics/harmonics.hpp"
+#include <algorithm>
+
+namespace sky::physics {
+
+/// g_m = sum_l c_lm sum_i w_i I_lm,i, for 0 <= m <= azimuthal, and the level that they are relative to. Inlined, so that it becomes vector code of
+/// whatever its caller is compiled for.
+///   levels        the field at the four altitudes of a stencil, [lm][stride] each; of lm = 0 the logarithm of the mean
+///   weights       of the four
+///   coefficients  [lm][stride], of the node
+///   azimuthal     0..degree
+///   out           [1 + term][stride]: interpolated level, then g_m; c_00 is in g_0
+[[gnu::always_inline]] inline void foldNode(const float* const levels[4], const float weights[4], const float* __restrict coefficients,
+                                            int degree, int azimuthal, int stride, float* __restrict out)
+{
+    const float* __restrict a = levels[0], * __restrict b = levels[1], * __restrict c = levels[2], * __restrict d = levels[3];
+    for (int w = 0; w < stride; ++w) {
+        out[w] = weights[0] * a[w] + weights[1] * b[w] + weights[2] * c[w] + weights[3] * d[w];
+        out[stride + w] = coefficients[w];
+    }
+    for (int i = 2 * stride; i < (azimuthal + 2) * stride; ++i)
+        out[i] = 0;
+    for (int l = 1; l <= degree; ++l)
+        for (int m = 0; m <= std::min(l, azimuthal); ++m) {
+            const int at = harmonicIndex(l, m) * stride;
+            float* __restrict term = out + (m + 1) * stride;
+            for (int w = 0; w < stride; ++w)
+                term[w] += coefficients[at + w] *
+                           (weights[0] * a[at + w] + weights[1] * b[at + w] + weights[2] * c[at + w] + weights[3] * d[at + w]);
+        }
+}
+
+} // namespace sky::physics
