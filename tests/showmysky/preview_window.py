@@ -172,7 +172,9 @@ class Window:
 
     def quit(self):
         self.hands.do("key", "ctrl+q")
-        expect(self.process.wait(PATIENCE) == 0, "Ctrl+Q ended with an exit code")
+        code = self.process.wait(PATIENCE)
+        self.log.seek(0)
+        expect(code == 0, f"Ctrl+Q ended with exit code {code}: " + self.log.read())
 
     def close(self):
         if self.process.poll() is None:
