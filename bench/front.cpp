@@ -62,7 +62,7 @@ Field compute(const gl::Api& api, const physics::Medium& medium, const solver::O
     const physics::Profile profile(medium);
     Field field{physics::makeOptics(medium, settings.degree, settings.truncatePeaks), {}, 0};
     const physics::SunTable sun(profile, field.optics, medium.sunAngularRadius);
-    const physics::MomentGrid grid(profile, solver::largestExtinctions(field.optics), settings.altitudes, settings.suns,
+    const physics::MomentGrid grid(profile, physics::largestExtinctions(field.optics), settings.altitudes, settings.suns,
                                    medium.sunAngularRadius);
     field.moments = iterate(api, {medium, profile, field.optics, sun}, grid, settings, limit, false, [](double) {}).total;
     field.levels = grid.altitudeCount();

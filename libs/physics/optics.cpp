@@ -82,6 +82,16 @@ Optics makeOptics(const Medium& medium, const int degree, const bool truncate)
     return optics;
 }
 
+std::vector<double> largestExtinctions(const Optics& optics)
+{
+    std::vector<double> largest;
+    for (int s = 0; s < optics.species; ++s) {
+        const auto begin = optics.extinction.begin() + s * optics.wavelengths;
+        largest.push_back(*std::max_element(begin, begin + optics.wavelengths));
+    }
+    return largest;
+}
+
 int azimuthalDegree(const Optics& optics, const int event, const double negligible, const int least)
 {
     double largest = 0;

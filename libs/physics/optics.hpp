@@ -28,6 +28,9 @@ double verticalColumn(const Medium& medium, const Species& species);
 ///   truncate  scale with f = lambda_{degree+1} where that much light matters; false: the series is only cut
 Optics makeOptics(const Medium& medium, int degree, bool truncate);
 
+/// Largest extinction cross section of each species over wavelengths, m^2.
+std::vector<double> largestExtinctions(const Optics& optics);
+
 /// Azimuthal orders 0..m that light still shows at event `event` (2: scattered twice), at most the degree. Each event multiplies a
 /// harmonic by its lambda_l, and so does the next one, which shows it: order m counts while (2m + 1) lambda^(event + 1) > `negligible` for
 /// the largest lambda_l from l = m on; the first `least` always, for the planet's shadow also makes azimuths differ.

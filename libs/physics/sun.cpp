@@ -30,12 +30,7 @@ double axisLength(double scale, double range) { return std::asinh(range / scale)
 /// In proportion to the angle over which the Sun goes out.
 double scaleFor(const Profile& profile, const Optics& optics, double sunRadius)
 {
-    std::vector<double> largest;
-    for (int s = 0; s < optics.species; ++s) {
-        const auto begin = optics.extinction.begin() + s * optics.wavelengths;
-        largest.push_back(*std::max_element(begin, begin + optics.wavelengths));
-    }
-    return usualScale * std::min(1., (dipOfAir(profile, largest) + 2 * sunRadius) / usualSunset);
+    return usualScale * std::min(1., (dipOfAir(profile, largestExtinctions(optics)) + 2 * sunRadius) / usualSunset);
 }
 
 /// Largest optical depth of the air between two altitudes, of all wavelengths.

@@ -179,14 +179,4 @@ std::size_t resultBytes(const Options& options)
     return most > 0 ? std::max<std::size_t>(1, (most - std::min(most, fixedMemory)) / 4) : 0;
 }
 
-std::vector<double> largestExtinctions(const physics::Optics& optics)
-{
-    std::vector<double> largest;
-    for (int s = 0; s < optics.species; ++s) {
-        const auto begin = optics.extinction.begin() + s * optics.wavelengths;
-        largest.push_back(*std::max_element(begin, begin + optics.wavelengths));
-    }
-    return largest;
-}
-
 } // namespace sky::solver

@@ -33,11 +33,4 @@ Work workOf(const atmo::Description& description, const Options& options, const 
 /// GPU, in its copy, where they go to, and while that is written. 0: no bound.
 std::size_t resultBytes(const Options& options);
 
-/// Bytes of results that may be gathered at a time under --max-memory: a quarter of what the fixed needs leave, since results exist on the
-/// GPU, in its copy, where they go to, and while that is written. 0: no bound.
-std::size_t resultBytes(const Options& options);
-
-/// Largest extinction cross section of each species over wavelengths, m^2.
-std::vector<double> largestExtinctions(const physics::Optics& optics);
-
 } // namespace sky::solver

@@ -134,7 +134,7 @@ void solve(const atmo::Description& description, const Options& asked, gl::Headl
     const physics::SunTable sun(profile, optics, medium.sunAngularRadius, physics::SunTable::usualAltitudes,
                                 physics::SunTable::usualElevations, stop);
     const Scene scene{medium, profile, optics, sun, stop};
-    const physics::MomentGrid grid(profile, largestExtinctions(optics), quality.moments.altitudes, quality.moments.suns,
+    const physics::MomentGrid grid(profile, physics::largestExtinctions(optics), quality.moments.altitudes, quality.moments.suns,
                                    medium.sunAngularRadius);
     const BakeJob job{description, options, scene, quality.bake, physics::sunTableDarkEnd(grid.darkDepth()), description.scatteringSize};
     model::describeOptics(manifest, optics, quality.moments.truncatePeaks);

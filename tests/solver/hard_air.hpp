@@ -104,15 +104,6 @@ inline std::vector<HardCase> hardCases()
             {"planet of 100 km, 60 km of air", molecules(100e3, 60e3, 8e3), 2, 3}};
 }
 
-inline std::vector<double> largestExtinctions(const physics::Optics& optics)
-{
-    std::vector<double> sigma(optics.species, 0.);
-    for (int s = 0; s < optics.species; ++s)
-        for (int w = 0; w < optics.wavelengths; ++w)
-            sigma[s] = std::max(sigma[s], optics.extinction[s * optics.wavelengths + w]);
-    return sigma;
-}
-
 /// Everything up to the iteration, and what can be seen after it.
 struct World {
     const physics::Medium& medium;
@@ -128,7 +119,7 @@ struct World {
         : medium(air), settings(scaled(normal, fineness_)), fineness(fineness_), profile(medium),
           optics(physics::makeOptics(medium, settings.degree, settings.truncatePeaks)),
           sun(profile, optics, medium.sunAngularRadius, scaled(56, fineness), scaled(112, fineness)),
-          grid(profile, largestExtinctions(optics), settings.altitudes, settings.suns, medium.sunAngularRadius)
+          grid(profile, physics::largestExtinctions(optics), settings.altitudes, settings.suns, medium.sunAngularRadius)
     {
     }
     World(const World&) = delete;
