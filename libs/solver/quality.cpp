@@ -40,22 +40,22 @@ const std::vector<Point>& points()
          {{Clear, 0.0069}, {Dusty, 0.0099}, {Dense, 0.0091}, {Hazy, 0.0084}, {Cloudy, 0.014}}},
         {"good",
          2.3,
-         {18, 36, 8, 8, 5, 10, 10, 96, 14, true, 1e-3, 5},
+         {18, 36, 10, 8, 5, 10, 10, 96, 14, true, 1e-3, 5},
          {72, 14, 3},
          {{Clear, 0.0024}, {Dusty, 0.0067}, {Dense, 0.0060}, {Hazy, 0.0056}, {Cloudy, 0.013}}},
         {"fine",
          6,
-         {24, 48, 8, 8, 6, 12, 10, 160, 20, true, 5e-4, 6},
+         {24, 48, 12, 8, 6, 12, 12, 160, 20, true, 5e-4, 6},
          {80, 24, 4},
          {{Clear, 0.0023}, {Dusty, 0.0067}, {Dense, 0.0024}, {Hazy, 0.0056}, {Cloudy, 0.013}}},
         {"finer",
          16,
-         {30, 60, 10, 10, 8, 16, 12, 176, 28, true, 2e-4, 8},
+         {30, 60, 14, 10, 8, 16, 14, 176, 28, true, 2e-4, 8},
          {120, 32, 5},
          {{Clear, 0.0023}, {Dusty, 0.0022}, {Dense, 0.0009}, {Hazy, 0.0056}, {Cloudy, 0.013}}},
         {"reference",
          60,
-         {40, 80, 12, 12, 10, 20, 16, 192, 40, true, 1e-4, 10},
+         {40, 80, 16, 12, 10, 20, 18, 192, 40, true, 1e-4, 10},
          {160, 48, 6},
          {{Clear, 0.0023}, {Dusty, 0.0021}, {Dense, 0.0009}, {Hazy, 0.0056}, {Cloudy, 0.013}}},
     };
@@ -144,7 +144,7 @@ constexpr double thick = 1.2;
 /// haze: the aureole of light scattered twice is cut with the peak, and a cloud washes it out.
 physics::MomentSettings forPeaks(physics::MomentSettings m, const bool dense)
 {
-    m.degree = std::max(dense ? 14 : 18, 2 * m.degree);
+    m.degree = std::max(dense ? 14 : 18, m.degree + 8);
     m.nodes += 2;
     m.groundDirections += 2;
     m.skyDirections += 2;
