@@ -13,7 +13,7 @@ namespace {
 
 using base::pi;
 
-// A compromise: maps twice as fine gain little, and take four times as long to make.
+// Rough, since whatever they miss only costs paths.
 constexpr std::size_t levels = 16, bandCount = 20, sectorCount = 12, suns = 48, sunBins = 2048;
 constexpr double bandCrowding = 3, sunCrowding = 4; // towards the horizon: a of sinh(a v)
 constexpr int events = 3;                           // of light scattered more than once
