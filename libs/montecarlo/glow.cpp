@@ -16,7 +16,7 @@ using base::pi;
 // Rough, since whatever they miss only costs paths.
 constexpr std::size_t levels = 16, bandCount = 20, sectorCount = 12, suns = 48, sunBins = 2048;
 constexpr double bandCrowding = 3, sunCrowding = 4; // towards the horizon: a of sinh(a v)
-constexpr int events = 3;                           // of light scattered more than once
+constexpr int events = 6;                           // scatterings followed one by one; the rest is a geometric series
 
 /// Angles from -pi/2 to pi/2, crowded about 0, at v in -1 .. 1.
 double crowded(double v, double a) { return 0.5 * pi * std::sinh(a * v) / std::sinh(a); }
@@ -29,12 +29,18 @@ struct Glow::Sight {
         int shell;
         double distance, inverseRadius; // m, 1/m
         double share;                   // of the light that meets it here
+        bool ground = false;
     };
     Place place;
     double mu = 0;
     std::vector<Part> parts;
-    double ground = 0, groundDistance = 0; // the same of the ground
-    std::vector<double> species;           // their parts in all that is scattered
+    std::vector<double> species; // their parts in all that is scattered
+
+    /// Cosine of the angle from the Sun.
+    double towardsSun(double muSun, double azimuth) const
+    {
+        return std::clamp(mu * muSun + std::sqrt((1 - mu * mu) * (1 - muSun * muSun)) * std::cos(azimuth), -1., 1.);
+    }
 };
 
 Glow::Glow(const Air& air)
@@ -123,64 +129,93 @@ Glow::Sight Glow::sightAt(const Air& air, std::size_t level, std::size_t band) c
     const double all = std::accumulate(sight.species.begin(), sight.species.end(), 0.);
     for (double& share : sight.species)
         share /= all;
-    if (leg.hitsGround) {
-        sight.ground = transmittance * air.groundAlbedo();
-        sight.groundDistance = leg.length;
-    }
+    if (leg.hitsGround && air.groundAlbedo() > 0)
+        sight.parts.push_back({0, leg.length, 1 / radius, transmittance * air.groundAlbedo(), true});
     return sight;
 }
 
-double Glow::brightness(const Air& air, const Sight& sight, double muSun, double azimuth, const Eclipse* eclipse) const
+double Glow::sunlit(const Air& air, const Sight& sight, double muSun, double azimuth, const Eclipse* eclipse) const
 {
-    const double radius = air.profile().planetRadius(), start = radius + sight.place.altitude;
+    const double start = air.profile().planetRadius() + sight.place.altitude, nu = sight.towardsSun(muSun, azimuth);
     const double sine = std::sqrt(1 - sight.mu * sight.mu);
-    const double nu = std::clamp(sight.mu * muSun + sine * std::sqrt(1 - muSun * muSun) * std::cos(azimuth), -1., 1.);
     const Vec direction{sine * std::cos(azimuth), sine * std::sin(azimuth), sight.mu};
     double phase = 0;
     for (std::size_t i = 0; i < sight.species.size(); ++i)
         phase += sight.species[i] * air.phase(i).value(std::acos(nu));
-    const auto sunlight = [&](int shell, double mu, double s) {
-        return air.guide()(shell, mu) * (eclipse ? eclipse->guess(start * sight.place.up + s * direction) : 1);
-    };
     double sum = 0;
     for (const Sight::Part& part : sight.parts) {
         const double mu = (start * muSun + part.distance * nu) * part.inverseRadius;
-        sum += part.share * (phase * sunlight(part.shell, mu, part.distance) + fromAllSides(part.shell, mu) / (4 * pi));
-    }
-    if (sight.ground > 0) {
-        const double mu = (start * muSun + sight.groundDistance * nu) / radius;
-        sum += sight.ground * (std::max(0., mu) / pi * sunlight(0, mu, sight.groundDistance) + fromAllSides(0, mu) / (4 * pi));
+        const double light = air.guide()(part.shell, mu) * (part.ground ? std::max(0., mu) / pi : phase);
+        sum += part.share * light * (eclipse ? eclipse->guess(start * sight.place.up + part.distance * direction) : 1);
     }
     return sum;
 }
 
+double Glow::skylit(const Air& air, const Sight& sight, double muSun, double azimuth) const
+{
+    const double start = air.profile().planetRadius() + sight.place.altitude, nu = sight.towardsSun(muSun, azimuth);
+    double sum = 0;
+    for (const Sight::Part& part : sight.parts)
+        sum += part.share * fromAllSides(part.shell, (start * muSun + part.distance * nu) * part.inverseRadius);
+    return sum / (4 * pi);
+}
+
 void Glow::fill(const Air& air, const Eclipse* eclipse)
 {
-    const std::size_t heights = levelAltitudes_.size(), elevations = sunCosines_.size();
+    const std::size_t heights = levelAltitudes_.size(), elevations = sunCosines_.size(), bins = bands() * sectors();
     std::vector<Sight> sights;
     for (std::size_t level = 0; level < heights; ++level)
         for (std::size_t band = 0; band < bands(); ++band)
             sights.push_back(sightAt(air, level, band));
-    maps_.assign(heights * elevations * mapSize(), 0);
-    diffuse_.assign(heights * elevations, 0);
-    std::vector<double> light(bands() * sectors());
-    for (int event = 0; event < events; ++event) {
-        std::vector<double> diffuse;
-        for (std::size_t level = 0; level < heights; ++level)
-            for (std::size_t sun = 0; sun < elevations; ++sun) {
-                for (std::size_t band = 0, bin = 0; band < bands(); ++band)
-                    for (std::size_t sector = 0; sector < sectors(); ++sector, ++bin) {
-                        const double azimuth = 0.5 * (azimuthEdges_[sector] + azimuthEdges_[sector + 1]);
-                        const auto from = [&](double side) {
-                            return brightness(air, sights[level * bands() + band], sunCosines_[sun], side * azimuth, eclipse);
-                        };
-                        // The Moon may stand beside the Sun's vertical.
-                        light[bin] = solidAngle(band, sector) * (eclipse ? 0.5 * (from(1) + from(-1)) : from(1));
-                    }
-                diffuse.push_back(std::accumulate(light.begin(), light.end(), 0.));
-                draw(light, mapOf(level, sun));
+    // Calls light(sight, muSun, azimuth) for each bin of a map, and weighs it with its solid angle.
+    const auto look = [&](std::size_t map, const auto& light, double* result) {
+        for (std::size_t band = 0; band < bands(); ++band)
+            for (std::size_t sector = 0; sector < sectors(); ++sector) {
+                const double azimuth = 0.5 * (azimuthEdges_[sector] + azimuthEdges_[sector + 1]);
+                *result++ =
+                    solidAngle(band, sector) * light(sights[map / elevations * bands() + band], sunCosines_[map % elevations], azimuth);
             }
-        diffuse_ = diffuse;
+    };
+    const std::size_t maps = heights * elevations;
+    std::vector<double> direct(maps * bins), light(bins);
+    for (std::size_t map = 0; map < maps; ++map)
+        look(
+            map,
+            [&](const Sight& sight, double muSun, double azimuth) {
+                const double one = sunlit(air, sight, muSun, azimuth, eclipse); // the Moon may stand beside the Sun's vertical
+                return eclipse ? 0.5 * (one + sunlit(air, sight, muSun, -azimuth, eclipse)) : one;
+            },
+            &direct[map * bins]);
+
+    const auto again = [&](const Sight& sight, double muSun, double azimuth) { return skylit(air, sight, muSun, azimuth); };
+    diffuse_.assign(maps, 0);
+    std::vector<double> added(maps), addedBefore(maps);
+    for (int event = 0; event < events; ++event) {
+        std::vector<double> next(maps);
+        for (std::size_t map = 0; map < maps; ++map) {
+            const auto first = direct.begin() + static_cast<std::ptrdiff_t>(map * bins);
+            next[map] = std::accumulate(first, first + static_cast<std::ptrdiff_t>(bins), 0.);
+            if (event > 0) {
+                look(map, again, light.data());
+                next[map] += std::accumulate(light.begin(), light.end(), 0.);
+            }
+        }
+        addedBefore = added;
+        for (std::size_t map = 0; map < maps; ++map)
+            added[map] = next[map] - diffuse_[map];
+        diffuse_ = next;
+    }
+    constexpr double steepest = 0.9; // ratio of the series
+    for (std::size_t map = 0; map < maps; ++map)
+        if (const double ratio = std::min(steepest, added[map] / std::max(addedBefore[map], 1e-300)); ratio > 0)
+            diffuse_[map] += added[map] * ratio / (1 - ratio);
+
+    maps_.assign(maps * mapSize(), 0);
+    for (std::size_t map = 0; map < maps; ++map) {
+        look(map, again, light.data());
+        for (std::size_t bin = 0; bin < bins; ++bin)
+            light[bin] += direct[map * bins + bin];
+        draw(light, &maps_[map * mapSize()]);
     }
 }
 

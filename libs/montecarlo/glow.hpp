@@ -40,11 +40,11 @@ private:
     void layOut(const Air& air);
     void fill(const Air& air, const Eclipse* eclipse);
     void draw(const std::vector<double>& light, float* map) const;
-    /// Of the sky in one direction, 1/sr.
-    double brightness(const Air& air, const Sight& sight, double muSun, double azimuth, const Eclipse* eclipse) const;
+    /// Light of a line of sight, 1/sr: sunlight scattered once; and the present guess at light from all sides, scattered again.
+    double sunlit(const Air& air, const Sight& sight, double muSun, double azimuth, const Eclipse* eclipse) const;
+    double skylit(const Air& air, const Sight& sight, double muSun, double azimuth) const;
     Sight sightAt(const Air& air, std::size_t level, std::size_t band) const;
     std::size_t sunOf(double muSun) const;
-    float* mapOf(std::size_t level, std::size_t sun) { return &maps_[(level * sunCosines_.size() + sun) * mapSize()]; }
     const float* mapOf(std::size_t level, std::size_t sun) const { return &maps_[(level * sunCosines_.size() + sun) * mapSize()]; }
     std::size_t bands() const { return cosineEdges_.size() - 1; }
     std::size_t sectors() const { return azimuthEdges_.size() - 1; }

@@ -17,9 +17,10 @@ constexpr double heavy = 2;
 constexpr double aimedShare = 0.15; // of directions after a scattering that are drawn about the Sun
 constexpr double peaked = 15;       // forward value of a phase function, in units of the isotropic one, worth aiming for
 
-/// Share of directions after a scattering that are drawn where the sky is bright. Few of those lie within a peak.
+/// Share of directions after a scattering that are drawn where the sky is bright. Few of those lie within a peak, and many guided decisions in a
+/// row make weights whose tail short runs do not see.
 ///   forward  value of the phase function, in units of the isotropic one
-double glowShare(double forward) { return 0.75 / (1 + forward / 8); }
+double glowShare(double forward, int order) { return (order <= 2 ? 0.75 : 0.3) / (1 + forward / 8); }
 
 } // namespace
 
@@ -175,7 +176,7 @@ Vec scatteredDirection(const Air& air, Vec direction, const Local& local, double
     return turned(direction, std::cos(sample.angle), std::sin(sample.angle), 2 * pi * u2);
 }
 
-Vec PathTracer::nextDirection(const Place& place, Vec direction, double u1, double u2, Random& random, double& weight) const
+Vec PathTracer::nextDirection(const Place& place, Vec direction, int order, double u1, double u2, Random& random, double& weight) const
 {
     if (!(local_.bright > 0)) {
         weight = 0;
@@ -184,7 +185,7 @@ Vec PathTracer::nextDirection(const Place& place, Vec direction, double u1, doub
     const Vec sun = scene_.sun.centre();
     const Glow::View view = weight < heavy ? glow_.viewFrom(place, sun) : Glow::View();
     const double forward = 4 * pi * air_.scatteredAt(local_, 0) / local_.bright;
-    const double aimed = forward > peaked ? aimedShare : 0, guided = view.map ? glowShare(forward) : 0;
+    const double aimed = forward > peaked ? aimedShare : 0, guided = view.map ? glowShare(forward, order) : 0;
     // What is left of u1 after the choice is as even as it was.
     Vec next;
     if (u1 < guided) {
@@ -232,7 +233,7 @@ double PathTracer::path(Random& random, const Decisions& decisions)
         if (onGround) // Lambert's law: the sine squared is uniform
             direction = turned(place.up, std::sqrt(1 - u1), std::sqrt(u1), 2 * pi * u2);
         else
-            direction = nextDirection(place, direction, u1, u2, random, weight);
+            direction = nextDirection(place, direction, order, u1, u2, random, weight);
         if (!(weight > 0))
             return radiance;
 

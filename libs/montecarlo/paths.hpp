@@ -57,7 +57,7 @@ private:
     /// Direction after a scattering. Some are drawn where the sky is bright. In peaked air some are drawn about the Sun, as if the light had come
     /// from there: else sunlight is met in rare bright flashes, of which the standard error knows nothing (Buras, Mayer 2011, J. Quant. Spectrosc.
     /// Radiat. Transfer 112, 434).
-    Vec nextDirection(const Place& place, Vec direction, double u1, double u2, Random& random, double& weight) const;
+    Vec nextDirection(const Place& place, Vec direction, int order, double u1, double u2, Random& random, double& weight) const;
     /// A point of the solar disc as a place sees it; nothing where the Moon hides it.
     std::optional<Vec> sunPoint(const Place& place, Random& random) const;
     double sunlightAtAir(const Place& place, Vec direction, const Local& local, Random& random) const;
