@@ -61,7 +61,7 @@ Glow::Glow(const Air& air, const Scene& scene)
     layOut(air);
     sunCosines_ = {dot(scene.camera.up, scene.sun.centre())};
     sunOfBin_ = {0};
-    fill(air, scene.eclipse ? &*scene.eclipse : nullptr);
+    fill(air, &*scene.eclipse);
 }
 
 void Glow::layOut(const Air& air)
@@ -128,7 +128,7 @@ Glow::Sight Glow::sightAt(const Air& air, std::size_t level, std::size_t band) c
     }
     const double all = std::accumulate(sight.species.begin(), sight.species.end(), 0.);
     for (double& share : sight.species)
-        share /= all;
+        share = all > 0 ? share / all : 0;
     if (leg.hitsGround && air.groundAlbedo() > 0)
         sight.parts.push_back({0, leg.length, 1 / radius, transmittance * air.groundAlbedo(), true});
     return sight;
@@ -262,8 +262,8 @@ namespace {
 std::size_t binOf(const float* cumulative, std::size_t count, double& u, double& share)
 {
     const double target = u * static_cast<double>(cumulative[count - 1]);
-    const auto i = std::min(
-        static_cast<std::size_t>(std::upper_bound(cumulative, cumulative + count, static_cast<float>(target)) - cumulative), count - 1);
+    const float* const full = std::lower_bound(cumulative, cumulative + count, cumulative[count - 1]); // bins after it are empty
+    const auto i = static_cast<std::size_t>(std::upper_bound(cumulative, full, static_cast<float>(target)) - cumulative);
     const double before = i > 0 ? static_cast<double>(cumulative[i - 1]) : 0;
     share = static_cast<double>(cumulative[i]) - before;
     u = std::clamp((target - before) / share, 0., 1.);

@@ -18,7 +18,7 @@ class Glow
 public:
     /// Maps for all elevations of the Sun.
     explicit Glow(const Air& air);
-    /// Maps for the vertical of a scene's camera, with the Moon before the Sun.
+    /// Maps for the vertical of the camera of a scene that has an eclipse.
     Glow(const Air& air, const Scene& scene);
 
     /// Light of the sky from all sides in a shell, in units of what the Sun sends.

@@ -24,10 +24,8 @@ double glowShare(double forward, int order) { return (order <= 2 ? 0.75 : 0.3) /
 
 } // namespace
 
-PathTracer::PathTracer(const Air& air, const Scene& scene, Orders orders)
-    : air_(air), scene_(scene), orders_(orders),
-      eclipsedGlow_(scene.eclipse ? std::optional<Glow>(std::in_place, air, scene) : std::nullopt),
-      glow_(eclipsedGlow_ ? *eclipsedGlow_ : air.glow())
+PathTracer::PathTracer(const Air& air, const Scene& scene, Orders orders, const Glow& glow)
+    : air_(air), scene_(scene), orders_(orders), glow_(glow)
 {
     firstRay_ = rayFrom(air_.profile().planetRadius(), scene_.camera, scene_.view);
     air_.profile().trace(firstRay_, firstLeg_);

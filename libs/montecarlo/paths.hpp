@@ -28,7 +28,8 @@ Vec scatteredDirection(const Air& air, Vec direction, const Local& local, double
 class PathTracer
 {
 public:
-    PathTracer(const Air& air, const Scene& scene, Orders orders);
+    /// \param glow  of the air, or of the scene's eclipse; must live as long as this
+    PathTracer(const Air& air, const Scene& scene, Orders orders, const Glow& glow);
 
     /// Mean of a batch of paths, 1/sr. The first decisions of its paths are spread evenly, from a random start.
     double batchMean(Random& random, int paths);
@@ -66,7 +67,6 @@ private:
     const Air& air_;
     Scene scene_;
     Orders orders_;
-    std::optional<Glow> eclipsedGlow_;
     const Glow& glow_;
     Ray firstRay_;
     Leg firstLeg_, leg_;
