@@ -86,8 +86,7 @@ const std::map<std::string, std::vector<Number>>& numbers()
         {"sky", {&M::skyDirections}},
         {"azimuths", {&M::azimuths}},
         {"nodes", {&M::nodes}},
-        {"directNodes", {&M::directNodes}},
-        {"leastAzimuthal", {&M::leastAzimuthal}}};
+        {"directNodes", {&M::directNodes}}};
     return list;
 }
 
@@ -113,10 +112,11 @@ physics::MomentSettings settingsOf(const std::string& preset, const physics::Med
     for (std::size_t i = 1; i < parts.size(); ++i) {
         const auto halves = CLI::detail::split(parts[i], '=');
         const auto found = numbers().find(halves.front());
-        if (halves.size() != 2 || found == numbers().end())
+        int number = 0;
+        if (halves.size() != 2 || found == numbers().end() || !CLI::detail::lexical_cast(halves[1], number))
             throw UsageError("--presets: `" + parts[i] + "` is no setting and its number, as in degree=10.");
         for (const Number field : found->second)
-            s.*field = std::stoi(halves[1]);
+            s.*field = number;
     }
     return s;
 }
