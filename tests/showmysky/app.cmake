@@ -18,7 +18,7 @@ if(SHOWMYSKY_HAS_WINDOW AND SKY_PYTHON)
     add_test(NAME "showmysky: the window"
              COMMAND ${SKY_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/preview_window.py $<TARGET_FILE:showmysky>
                      $<TARGET_FILE:calcmysky> ${model} ${PROJECT_SOURCE_DIR}/examples/earth-small.atmo
-                     ${CMAKE_CURRENT_BINARY_DIR}/window)
+                     ${CMAKE_CURRENT_BINARY_DIR}/window $<IF:$<BOOL:${CALCMYSKY_SANITIZE}>,4,1>)
     set_tests_properties("showmysky: the window" PROPERTIES
         FIXTURES_REQUIRED earth_small LABELS window PROCESSORS 2 SKIP_RETURN_CODE 77)
 else()

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """The window of showmysky as people use it: a real window on a screen in memory (Xvfb), hands made by xdotool, and
 screenshots that are compared.
-    preview_window.py SHOWMYSKY CALCMYSKY MODEL DESCRIPTION SCRATCH
+    preview_window.py SHOWMYSKY CALCMYSKY MODEL DESCRIPTION SCRATCH [SLOWNESS]
+SLOWNESS stretches all pauses and all patience: for programs under a sanitizer, whose frames take longer.
 Exit code 77: skipped, because Xvfb, xdotool or NumPy is missing. Screenshots of every step stay in SCRATCH."""
 
 import os
@@ -16,7 +17,8 @@ SKIPPED = 77
 WIDTH, HEIGHT = 900, 600
 PANEL, STATUS = 345, 60  # what widgets cover at the left and at the bottom, pixels
 ADD_A_CITY, LUMINANCE, REMOVE = (47, 522), (100, 472), (30, 495)  # widgets, once the panel is scrolled to its end
-PATIENCE = 20  # seconds for anything to happen on a busy machine
+SLOWNESS = float(sys.argv[6]) if len(sys.argv) > 6 else 1
+PATIENCE = 20 * SLOWNESS  # seconds for anything to happen on a busy machine
 
 try:
     import numpy as np
@@ -33,6 +35,10 @@ SHOWMYSKY, CALCMYSKY, MODEL, DESCRIPTION, SCRATCH = (os.path.abspath(path) for p
 
 class Failure(Exception):
     pass
+
+
+def pause(seconds):
+    time.sleep(seconds * SLOWNESS)
 
 
 def expect(condition, sentence):
@@ -87,7 +93,7 @@ class Hands:
     def do(self, *words):
         subprocess.run(["xdotool", *(str(word) for word in words)], env=self.environment, check=True,
                        stdout=subprocess.DEVNULL)
-        time.sleep(0.05)
+        pause(0.05)  # a frame: one that sees two places of the pointer knows the last alone
 
     def rest(self):
         """The pointer leaves the sky: it would show in the screenshots."""
@@ -109,18 +115,18 @@ class Hands:
         """Long enough for the slowest frame: Dear ImGui 1.86 misses keys that are up again before it looks."""
         for key in keys:
             self.do("keydown", key)
-        time.sleep(0.5)
+        pause(0.5)
         for key in reversed(keys):
             self.do("keyup", key)
 
     def press(self, place):
         """A click as long as hold() holds keys."""
         self.do("mousemove", *place)
-        time.sleep(0.3)
+        pause(0.3)
         self.do("mousedown", 1)
-        time.sleep(0.5)
+        pause(0.5)
         self.do("mouseup", 1)
-        time.sleep(0.3)
+        pause(0.3)
         self.rest()
 
     def click(self, place, button=1, times=1):
@@ -147,7 +153,7 @@ class Window:
         before = self.screen.look()
         still = 0
         while time.monotonic() < deadline:
-            time.sleep(0.12)
+            pause(0.12)
             now = self.screen.look()
             still = still + 1 if np.array_equal(before, now) else 0
             if self.process.poll() is not None:
@@ -158,7 +164,7 @@ class Window:
                 return now
             before = now
         write_png("at-failure.png", before)
-        raise Failure(f"in {patience} s it never came true that {what}; see at-failure.png")
+        raise Failure(f"in {patience:g} s it never came true that {what}; see at-failure.png")
 
     def appears(self, night=False):
         def seen(image):  # beside the panel it is grey before there is a sky, and black at night
@@ -252,7 +258,7 @@ def test_scene(screen):
         while not os.path.exists("typed.scene") and time.monotonic() < deadline:
             time.sleep(0.1)
         expect(os.path.exists("typed.scene"), "typing a name and pressing Save made no file")
-        time.sleep(0.2)
+        pause(0.2)
         scene = dict(line.rstrip("\n").split(": ", 1) for line in open("typed.scene") if not line.startswith("#"))
         saved = [float(scene["sun-azimuth"]), float(scene["sun-zenith"])]
         there = place(sun(start) + move, 100, 30)
@@ -325,7 +331,7 @@ def test_cities(screen):
             deadline = time.monotonic() + PATIENCE
             while not os.path.exists("sky.scene") and time.monotonic() < deadline:
                 time.sleep(0.1)
-            time.sleep(0.2)
+            pause(0.2)
             scene = dict(line.rstrip("\n").split(":", 1) for line in open("sky.scene") if not line.startswith("#"))
             return dict(part.split("=") for part in scene["city"].strip().split(",") if part)
 
