@@ -124,28 +124,26 @@ bool PathTracer::advance(Place& place, Vec direction, const Ray& ray, const Leg&
     return false;
 }
 
-std::optional<Vec> PathTracer::sunPoint(const Place& place, Random& random) const
+Eclipse::Left PathTracer::sunPoint(const Place& place, Random& random) const
 {
     const double u1 = random.uniform(), u2 = random.uniform();
     if (!scene_.eclipse)
-        return scene_.sun.point(u1, u2);
-    const Vec position = (air_.profile().planetRadius() + place.altitude) * place.up;
-    const Vec point = scene_.eclipse->sunFrom(position).point(u1, u2);
-    return scene_.eclipse->hides(position, point) ? std::nullopt : std::optional(point);
+        return {scene_.sun.point(u1, u2), 1};
+    return scene_.eclipse->pointLeft((air_.profile().planetRadius() + place.altitude) * place.up, u1, u2);
 }
 
 double PathTracer::sunlightAtAir(const Place& place, Vec direction, const Local& local, Random& random) const
 {
-    const std::optional<Vec> sun = sunPoint(place, random);
-    const double t = sun ? air_.transmittance(place, *sun) : 0;
-    return t > 0 ? t * air_.scatteredAt(local, angleBetween(*sun, direction)) / local.extinction : 0;
+    const auto [sun, share] = sunPoint(place, random);
+    const double t = share > 0 ? share * air_.transmittance(place, sun) : 0;
+    return t > 0 ? t * air_.scatteredAt(local, angleBetween(sun, direction)) / local.extinction : 0;
 }
 
 double PathTracer::sunlightAtGround(const Place& place, Random& random) const
 {
-    const std::optional<Vec> sun = sunPoint(place, random);
-    const double mu = sun ? dot(place.up, *sun) : 0;
-    return mu > 0 ? mu / pi * air_.transmittance(place, *sun) : 0;
+    const auto [sun, share] = sunPoint(place, random);
+    const double mu = dot(place.up, sun);
+    return share > 0 && mu > 0 ? share * mu / pi * air_.transmittance(place, sun) : 0;
 }
 
 Vec scatteredDirection(const Air& air, Vec direction, const Local& local, double u1, double u2, double& weight)

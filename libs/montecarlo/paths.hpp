@@ -6,7 +6,6 @@
 #include "montecarlo/single.hpp"
 
 #include <array>
-#include <optional>
 #include <vector>
 
 namespace sky::montecarlo {
@@ -59,8 +58,8 @@ private:
     /// from there: else sunlight is met in rare bright flashes, of which the standard error knows nothing (Buras, Mayer 2011, J. Quant. Spectrosc.
     /// Radiat. Transfer 112, 434).
     Vec nextDirection(const Place& place, Vec direction, int order, double u1, double u2, Random& random, double& weight) const;
-    /// A point of the solar disc as a place sees it; nothing where the Moon hides it.
-    std::optional<Vec> sunPoint(const Place& place, Random& random) const;
+    /// A point of the solar disc as a place sees it, of what the Moon leaves of it.
+    Eclipse::Left sunPoint(const Place& place, Random& random) const;
     double sunlightAtAir(const Place& place, Vec direction, const Local& local, Random& random) const;
     double sunlightAtGround(const Place& place, Random& random) const;
 

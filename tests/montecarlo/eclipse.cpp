@@ -57,6 +57,33 @@ TEST_CASE("Monte Carlo eclipse: chords see of the Sun what the closed form of tw
         }
 }
 
+TEST_CASE("Monte Carlo eclipse: random points of what is left are seen, and as many as are left")
+{
+    constexpr int side = 200; // midpoints of a grid of random numbers
+    const double r = 6371e3, radius = 695700e3 / astronomicalUnit;
+    const Rule rule = gaussLegendre(32);
+    for (const double distance : {371925e3, 400000e3})
+        for (const double x : {0., 130e3, 300e3, 1200e3, 3200e3, 3700e3}) {
+            const Eclipse eclipse({0, 0, astronomicalUnit}, {0, 0, distance}, lunarRadius, radius);
+            const Place place{0, normalized({x, 0, std::sqrt(r * r - x * x)})};
+            double share = 0, middle = 0;
+            for (int i = 0; i < side; ++i)
+                for (int k = 0; k < side; ++k) {
+                    const auto left = eclipse.pointLeft(r * place.up, (i + 0.5) / side, (k + 0.5) / side);
+                    share += left.share / (side * side);
+                    middle += left.share * left.point.x / (side * side);
+                    if (left.share > 1e-6) // of thinner chords an edge may be met within its rounding
+                        REQUIRE_FALSE(eclipse.hides(r * place.up, left.point));
+                    REQUIRE(angleBetween(left.point, eclipse.sunFrom(r * place.up).centre()) < radius * (1 + 1e-6));
+                }
+            const double seen = eclipse.average(r, place, rule, [](Vec) { return 1.0; });
+            const double aside = eclipse.average(r, place, rule, [](Vec point) { return point.x; });
+            CAPTURE(distance, x);
+            CHECK(share == Approx(seen).epsilon(3e-3).margin(1e-6)); // the grid's step at the limb
+            CHECK(middle == Approx(aside).epsilon(3e-3).margin(1e-6 * radius));
+        }
+}
+
 TEST_CASE("Monte Carlo eclipse: the quadrature of order 1 agrees with random paths")
 {
     const Reference reference(earth());
