@@ -15,10 +15,14 @@ catch_discover_tests(test_showmysky_app TEST_PREFIX "showmysky app: ")
 
 # The window itself, on a screen in memory. Label `window`: it needs Xvfb and xdotool, and is skipped without them.
 if(SHOWMYSKY_HAS_WINDOW AND SKY_PYTHON)
+    set(slowness 1)
+    if(CALCMYSKY_SANITIZE)
+        set(slowness 4)
+    endif()
     add_test(NAME "showmysky: the window"
              COMMAND ${SKY_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/preview_window.py $<TARGET_FILE:showmysky>
                      $<TARGET_FILE:calcmysky> ${model} ${PROJECT_SOURCE_DIR}/examples/earth-small.atmo
-                     ${CMAKE_CURRENT_BINARY_DIR}/window $<IF:$<BOOL:${CALCMYSKY_SANITIZE}>,4,1>)
+                     ${CMAKE_CURRENT_BINARY_DIR}/window ${slowness})
     set_tests_properties("showmysky: the window" PROPERTIES
         FIXTURES_REQUIRED earth_small LABELS window PROCESSORS 2 SKIP_RETURN_CODE 77)
 else()
