@@ -204,7 +204,7 @@ void Aerial::growLight(int view, const Line& line, const float* shares)
                 at(table, k, view, column)[c] = total[c] > faintest ? std::clamp(grown[static_cast<std::size_t>(k)][c] / total[c], 0.f, 1.f)
                                                                     : columnShares[static_cast<std::size_t>(k)][c];
     };
-    const double radius = atmosphere_.planet().radius + scene_.altitude, flat = std::sqrt(std::max(0., 1 - mu * mu));
+    const double flat = std::sqrt(std::max(0., 1 - mu * mu));
     for (int a = 0; a < columns(); ++a) {
         const double relative = relativeAzimuth(a), nu = std::clamp(mu * muSun + sines * std::cos(relative), -1., 1.);
         const double azimuth = (scene_.eclipse ? scene_.eclipse->sunAzimuth : 0) + relative;
@@ -219,15 +219,11 @@ void Aerial::growLight(int view, const Line& line, const float* shares)
         }
         for (std::size_t n = 0; n < single.nodes.size(); ++n) {
             const auto& node = single.nodes[n];
-            sun_.transmittance(node.altitude, std::clamp(node.sunScale * muSun + node.nuScale * nu, -1., 1.), light.data());
-            if (scene_.eclipse) {
-                const double distance = radius * node.nuScale / node.sunScale;
-                const auto left = static_cast<double>(
-                    scene_.eclipse->sunlight({static_cast<float>(distance * direction[0]), static_cast<float>(distance * direction[1]),
-                                              static_cast<float>(distance * direction[2])}));
-                for (double& value : light)
-                    value *= left;
-            }
+            const SunSeen seen = scene_.eclipse ? scene_.eclipse->sun(direction, node) : SunSeen{1, {}};
+            sun_.transmittance(node.altitude, std::clamp(node.sunScale * muSun + node.nuScale * nu, -1., 1.), light.data(),
+                               seen.middle.rise);
+            for (double& value : light)
+                value *= seen.share;
             for (std::size_t i = 0; i < scatterers; ++i)
                 for (std::size_t w = 0; w < wavelengths; ++w)
                     lit[i * wavelengths + w] += single.weights[n * stride + i * wavelengths + w] * light[w];

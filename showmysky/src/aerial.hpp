@@ -6,6 +6,7 @@
 
 #include "air_entry.hpp"
 #include "atmosphere.hpp"
+#include "eclipse_view.hpp"
 #include "phases.hpp"
 #include "physics/ray.hpp"
 #include "settings_used.hpp"
@@ -25,8 +26,8 @@ struct AerialScene {
     bool glow = false; ///< some of `whole` isn't the Sun's light
     struct Eclipse {
         double sunAzimuth = 0; ///< in the frame, from x to y
-        /// Share of the Sun's light that is left at a point in the camera's frame, m.
-        std::function<float(const std::array<float, 3>&)> sunlight;
+        /// What is left of the Sun's luminance at a node of a line of sight: EclipseSky::sunAt.
+        std::function<SunSeen(const std::array<double, 3>& direction, const sky::physics::RayNodes::Node& node)> sun;
         /// That of the light of higher orders from the nodes of lines of sight: EclipseSky::nodeRatios.
         std::function<std::vector<float>(const std::vector<sky::physics::RayNodes>& lines, const std::vector<double>& sines,
                                          const std::vector<double>& relative)>

@@ -2,7 +2,6 @@
 
 #include "base/angles.hpp"
 #include "base/parallel.hpp"
-#include "eclipse_view.hpp"
 #include "physics/table_axes.hpp"
 #include <algorithm>
 #include <cmath>
@@ -39,8 +38,8 @@ bool same(const eclipse::Orders& a, const eclipse::Orders& b)
 
 } // namespace
 
-EclipseSky::EclipseSky(const Atmosphere& atmosphere, const physics::SunTable& sun)
-    : atmosphere_(atmosphere), sun_(sun), law_(atmosphere.medium.wavelengthsNm),
+EclipseSky::EclipseSky(const Atmosphere& atmosphere, const Phases& phases, const physics::SunTable& sun)
+    : atmosphere_(atmosphere), phases_(phases), sun_(sun), law_(atmosphere.medium.wavelengthsNm),
       air_(eclipse::traceAir(atmosphere.medium, atmosphere.profile, atmosphere.optics, {})), shares_(atmosphere, sun)
 {
 }
@@ -155,6 +154,7 @@ Texel EclipseSky::ratioAt(const std::vector<Texel>& table, const double coordina
 SkyView EclipseSky::dimmed(const OrdinarySky& sky, const ViewTable* const eclipsed, const int halfViews, const int azimuths) const
 {
     const auto& planet = atmosphere_.planet();
+    const auto& sun = scene_->bodies.sunDirection;
     const double altitude = scene_->bodies.cameraAltitude;
     SkyAxes axes{physics::horizonElevation(planet, altitude), true, std::asin(std::clamp(scene_->bodies.sunDirection[2], -1., 1.))};
     SkyView result;
@@ -179,6 +179,7 @@ SkyView EclipseSky::dimmed(const OrdinarySky& sky, const ViewTable* const eclips
     sky::base::parallel([&](int thread, int threads) {
         EclipseShares::Line line;
         std::vector<Texel> left(scatterers), all(scatterers);
+        std::vector<float> nearer(scatterers); // gain of the cosine to the Sun, times what is left
         for (int v = thread; v < 2 * halfViews; v += threads) {
             const int half = v / halfViews;
             const double elevation = axes.elevationAt(double(v % halfViews) / (halfViews - 1), half);
@@ -194,19 +195,21 @@ SkyView EclipseSky::dimmed(const OrdinarySky& sky, const ViewTable* const eclips
                 const double column = azimuth * (EclipseShares::azimuths - 1);
                 const int k = std::min(static_cast<int>(column), EclipseShares::azimuths - 2);
                 const auto x = static_cast<float>(column - k);
-                // Share of the light that a node had: of the disc, through the air from what is left of it.
-                const auto shareAt = [&](float distance, std::size_t node) {
+                // Share of the light that a node had: of the disc, through the air from what is left of it; and the cosine that
+                // its angle to the line of sight gains.
+                const auto leftAt = [&](float distance, std::size_t node) -> std::pair<Texel, float> {
                     const auto seen = light_->seen({distance * direction[0], distance * direction[1], distance * direction[2]});
                     Texel share = seen.share;
                     if (!line.lit || share[1] <= 0 || share[1] >= 1)
-                        return share;
+                        return {share, 0};
                     const float rise =
                         (seen.aside[0] * direction[0] + seen.aside[1] * direction[1]) * line.ahead[node] + seen.aside[2] * line.up[node];
                     const Texel *near = &line.rising[static_cast<std::size_t>(k) * EclipseShares::nodes + node],
                                 *far = near + EclipseShares::nodes;
                     const Four slope = four(*near) + x * (four(*far) - four(*near)), kept = four(share) * grown(rise * slope);
                     const Four most = kept > 1.f ? Four{1, 1, 1, 1} : kept;
-                    return Texel{most[0], most[1], most[2], most[3]};
+                    return {{most[0], most[1], most[2], most[3]},
+                            seen.aside[0] * direction[0] + seen.aside[1] * direction[1] + seen.aside[2] * direction[2]};
                 };
                 Texel& whole = result.whole.at(v, a);
                 const auto add = [&](const ViewTable& table, const Texel& factor) {
@@ -219,7 +222,7 @@ SkyView EclipseSky::dimmed(const OrdinarySky& sky, const ViewTable* const eclips
                 if (!multiple.empty())
                     add(multiple, eclipsed ? Texel{1, 1, 1, 1} : ratioAt(skyRatios_, coordinate, half, relative));
                 if (half == 1 && !direct.empty()) {
-                    add(direct, shareAt(toGround, EclipseShares::nodes - 1));
+                    add(direct, leftAt(toGround, EclipseShares::nodes - 1).first);
                     add(diffuse, ratioAt(groundRatios_, coordinate, half, relative));
                 }
                 add(glow, {1, 1, 1, 1});
@@ -227,28 +230,52 @@ SkyView EclipseSky::dimmed(const OrdinarySky& sky, const ViewTable* const eclips
                     continue;
                 std::fill(left.begin(), left.end(), Texel{});
                 std::fill(all.begin(), all.end(), Texel{});
+                std::fill(nearer.begin(), nearer.end(), 0.f);
                 const Texel *near = &line.light[static_cast<std::size_t>(k * EclipseShares::nodes) * scatterers],
                             *far = near + static_cast<std::size_t>(EclipseShares::nodes) * scatterers;
                 for (std::size_t n = 0; n < EclipseShares::nodes; ++n) {
-                    const Texel visible = shareAt(line.distance[n], n);
-                    for (std::size_t i = 0; i < scatterers; ++i, ++near, ++far)
+                    const auto [visible, towards] = leftAt(line.distance[n], n);
+                    for (std::size_t i = 0; i < scatterers; ++i, ++near, ++far) {
+                        const float before = left[i][1];
                         for (std::size_t c = 0; c < 4; ++c) {
                             const float light = (*near)[c] + x * ((*far)[c] - (*near)[c]);
                             all[i][c] += light;
                             left[i][c] += light * visible[c];
                         }
+                        nearer[i] += towards * (left[i][1] - before);
+                    }
                 }
                 for (std::size_t i = 0; i < single.size(); ++i) {
                     if (single[i].empty())
                         continue;
                     const Texel value = sampled(single[i], coordinate, half, azimuth);
+                    // Phase functions are taken at the mean of all nodes, as in physics::SkyEvaluator.
+                    float phase = 1;
+                    if (nearer[i] != 0) {
+                        const double nu = mu * sun[2] + flat * std::hypot(sun[0], sun[1]) * std::cos(relative);
+                        const double ordinary = phases_.drawn(static_cast<int>(i), nu);
+                        if (ordinary > 0)
+                            phase = static_cast<float>(
+                                phases_.drawn(static_cast<int>(i), nu + static_cast<double>(nearer[i] / left[i][1])) / ordinary);
+                    }
                     for (std::size_t c = 0; c < 4; ++c)
-                        result.scattered[i].at(v, a)[c] = all[i][c] > 0 ? value[c] * (left[i][c] / all[i][c]) : value[c];
+                        result.scattered[i].at(v, a)[c] = all[i][c] > 0 ? value[c] * (phase * left[i][c] / all[i][c]) : value[c];
                 }
             }
         }
     });
     return result;
+}
+
+SunSeen EclipseSky::sunAt(const std::array<double, 3>& direction, const physics::RayNodes::Node& node) const
+{
+    const double radius = atmosphere_.planet().radius + scene_->bodies.cameraAltitude, distance = radius * node.nuScale / node.sunScale;
+    SunSeen seen = sunSeen(shadow_, atmosphere_.planet(), scene_->bodies.cameraAltitude, direction, node);
+    if (scene_->limbDarkening)
+        seen.share =
+            static_cast<double>(light_->luminance({static_cast<float>(distance * direction[0]), static_cast<float>(distance * direction[1]),
+                                                   static_cast<float>(distance * direction[2])}));
+    return seen;
 }
 
 physics::MiddleOfLight EclipseSky::visibleAt(const std::array<double, 3>& direction, const physics::RayNodes::Node& node,

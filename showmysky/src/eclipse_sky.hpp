@@ -8,6 +8,8 @@
 
 #include "eclipse/field.hpp"
 #include "eclipse_shares.hpp"
+#include "eclipse_view.hpp"
+#include "phases.hpp"
 #include "physics/sky.hpp"
 #include "settings_used.hpp"
 #include "shadow_light.hpp"
@@ -34,7 +36,7 @@ struct EclipseScene {
 class EclipseSky
 {
 public:
-    EclipseSky(const Atmosphere& atmosphere, const sky::physics::SunTable& sun);
+    EclipseSky(const Atmosphere& atmosphere, const Phases& phases, const sky::physics::SunTable& sun);
 
     /// Begins anew what another scene changes.   throws sky::RangeError
     void set(const EclipseScene& scene);
@@ -45,9 +47,9 @@ public:
     /// \param eclipsed  light of higher orders that is dimmed already, in place of `sky`'s; null: that is dimmed by the local field
     SkyView dimmed(const OrdinarySky& sky, const ViewTable* eclipsed, int halfViews, int azimuths) const;
 
-    /// Share of the Sun's luminance left at a point in the camera's frame, m. All work must be done.
-    float lightAt(const std::array<float, 3>& point) const { return light_->luminance(point); }
-    /// Share of the Sun's light left at a node of a line of sight (unit vector), [wavelength], and where its middle stands.
+    /// What is left of the Sun's luminance at a node of a line of sight (unit vector). All work must be done.
+    SunSeen sunAt(const std::array<double, 3>& direction, const sky::physics::RayNodes::Node& node) const;
+    /// The share left, [wavelength], and where the middle of that light stands.
     sky::physics::MiddleOfLight visibleAt(const std::array<double, 3>& direction, const sky::physics::RayNodes::Node& node,
                                           double* result) const;
     /// Share left of the light of higher orders in a direction, and of the diffuse light of the ground there,
@@ -72,6 +74,7 @@ private:
     Texel ratioAt(const std::vector<Texel>& table, double coordinate, int half, double relative) const;
 
     const Atmosphere& atmosphere_;
+    const Phases& phases_;
     const sky::physics::SunTable& sun_;
     sky::physics::LimbDarkening law_;
     std::shared_ptr<const sky::eclipse::AirRays> air_;

@@ -1,5 +1,6 @@
 #include "illuminance.hpp"
 #include "base/angles.hpp"
+#include "physics/quadrature.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +10,8 @@ namespace showmysky {
 namespace {
 
 using sky::base::pi;
-/// Angles from the Sun, dense near it as cubes, and directions around it.
-constexpr int angles = 160, turns = 96;
+/// Angles from the Sun, dense near it as cubes, and directions around it; along a radius of the Sun's disc.
+constexpr int angles = 160, turns = 96, radii = 8;
 
 } // namespace
 
@@ -50,6 +51,53 @@ Texel skyIlluminance(const SkyView& view, const SkyAxes& axes, const Phases& pha
         }
     }
     return {static_cast<float>(sum[0]), static_cast<float>(sum[1]), static_cast<float>(sum[2]), static_cast<float>(sum[3])};
+}
+
+void addCrescentIlluminance(const std::vector<Texel>& colours, const double elevation, const Crescent& crescent, const double horizon,
+                            Illuminance& result)
+{
+    // In units of the Sun's radius, from its centre: `rho` at an angle `phi` from the way that leads off the Moon. The Moon's limb is at
+    // rho^2 + 2 rho d cos(phi) + d^2 = b^2.
+    const double radius = crescent.discs.sunRadius, b = crescent.discs.moonRadius / radius, d = crescent.discs.separation / radius;
+    const double solidAngle = 2 * pi * (1 - std::cos(radius)), aside = std::sqrt(std::max(0., 1 - crescent.up * crescent.up));
+    const auto add = [&](double area, double rho, double height) {
+        const double at = elevation + radius * height;
+        const double u = std::clamp(0.5 * (height + 1), 0., 1.) * static_cast<double>(colours.size() - 1);
+        const auto k = std::min(static_cast<std::size_t>(u), colours.size() - 2);
+        for (std::size_t c = 0; c < 4; ++c) {
+            const auto exponent = static_cast<double>(crescent.limbExponents[c]), low = static_cast<double>(colours[k][c]);
+            const double limb = (1 + 0.5 * exponent) * std::pow(1 - rho * rho, 0.5 * exponent);
+            const double lux =
+                area / pi * solidAngle * limb * (low + (u - static_cast<double>(k)) * (static_cast<double>(colours[k + 1][c]) - low));
+            result.sunFacing[c] += static_cast<float>(lux);
+            result.sunHorizontal[c] += static_cast<float>(lux * std::max(0., std::sin(at)));
+        }
+    };
+    const double lowest = (horizon - elevation) / radius;
+    const auto rule = sky::physics::gaussLegendre(radii, 0, 1);
+    const double horns = std::acos(std::clamp((b * b - 1 - d * d) / (2 * std::max(d, 1e-12)), -1., 1.)); // where the limbs cross
+    for (const auto& [from, to] : {std::pair{0., horns}, {horns, pi}})
+        for (int i = 0; i < turns; ++i) {
+            const double width = (to - from) / turns, phi = from + width * (i + 0.5), cosine = std::cos(phi), sine = std::sin(phi);
+            const auto addStretch = [&](double near, double far) {
+                for (const double side : {-1., 1.}) {
+                    // Height per radius; the horizon cuts the stretch.
+                    const double slope = cosine * crescent.up + side * sine * aside, cut = lowest / slope;
+                    const double low = slope > 0 ? std::max(near, cut) : near, high = slope < 0 ? std::min(far, cut) : far;
+                    for (std::size_t k = 0; high > low && k < rule.nodes.size(); ++k) {
+                        const double rho = low + (high - low) * rule.nodes[k];
+                        add(width * (high - low) * rule.weights[k] * rho, rho, rho * slope);
+                    }
+                }
+            };
+            const double root = b * b - d * d * sine * sine;
+            if (root <= 0) {
+                addStretch(0, 1);
+            } else {
+                addStretch(0, std::min(1., -d * cosine - std::sqrt(root)));
+                addStretch(std::max(0., std::sqrt(root) - d * cosine), 1);
+            }
+        }
 }
 
 void addSunIlluminance(const std::vector<Texel>& colours, double elevation, double radius, double horizon, Illuminance& result)

@@ -315,7 +315,7 @@ EclipseScene Scene::eclipseScene() const
 Progress Scene::eclipseStep()
 {
     if (!eclipse_)
-        eclipse_ = std::make_unique<EclipseSky>(*atmosphere_, *sun_);
+        eclipse_ = std::make_unique<EclipseSky>(*atmosphere_, *phases_, *sun_);
     eclipse_->set(eclipseScene());
     if (!eclipse_->step())
         return {false, 0.85 + 0.15 * eclipse_->fractionDone(), "Following the shadow"};
@@ -402,8 +402,9 @@ bool Scene::aerialStep()
                           wholeOfLines(),     settings_.layers.lightPollution};
         if (eclipse) {
             const auto sun = directionOf(settings_.sun.azimuth, settings_.sun.zenithAngle);
-            scene.eclipse = {
-                std::atan2(sun[1], sun[0]), [this](const std::array<float, 3>& point) { return eclipse_->lightAt(point); }, {}};
+            scene.eclipse = {std::atan2(sun[1], sun[0]),
+                             [this](const auto& direction, const auto& node) { return eclipse_->sunAt(direction, node); },
+                             {}};
             if (higherOrders)
                 scene.eclipse->higherOrders = [this](const auto& lines, const auto& sines, const auto& relative) {
                     return eclipse_->nodeRatios(lines, sines, relative);
@@ -425,15 +426,25 @@ Illuminance Scene::illuminance() const
     const SceneGeometry scene = geometry();
     const double elevation = pi / 2 - settings_.sun.zenithAngle;
     Illuminance result;
-    addSunIlluminance(sunColours(illuminanceSamples), elevation, sunRadius(), scene.horizon, result);
-    if (scene.eclipse) {
-        const auto left = static_cast<float>(1 - eclipseState(settings_).obscuration);
-        for (Texel* light : {&result.sunHorizontal, &result.sunFacing})
-            for (float& value : *light)
-                value *= left;
-    }
+    const auto colours = sunColours(illuminanceSamples);
+    if (scene.eclipse)
+        addCrescentIlluminance(colours, elevation, crescent(), scene.horizon, result);
+    else
+        addSunIlluminance(colours, elevation, sunRadius(), scene.horizon, result);
     result.skyHorizontal = skyIlluminance(view_, skyAxes(), *phases_);
     return result;
+}
+
+Crescent Scene::crescent() const
+{
+    const EclipseState state = eclipseState(settings_);
+    const auto sun = directionOf(settings_.sun.azimuth, settings_.sun.zenithAngle);
+    const auto moon = directionOf(settings_.moon.azimuth, settings_.moon.zenithAngle);
+    // From the Moon to the Sun and upwards, both square to the Sun's direction.
+    const double along = sun[0] * moon[0] + sun[1] * moon[1] + sun[2] * moon[2];
+    const double size = std::sqrt(std::max(0., (1 - along * along) * (1 - sun[2] * sun[2])));
+    const double up = size > 0 ? std::clamp((along * sun[2] - moon[2]) / size, -1., 1.) : 1;
+    return {{state.sunAngularRadius, state.moonAngularRadius, state.separation}, up, settings_.limbDarkening ? limbExponents() : Texel{}};
 }
 
 SceneGeometry Scene::geometry() const

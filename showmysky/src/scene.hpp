@@ -72,6 +72,7 @@ private:
     Progress eclipseStep();
     EclipseScene eclipseScene() const;
     std::vector<Texel> sunColours(int count) const;
+    Crescent crescent() const;
     Texel limbExponents() const;
 
     std::string directory_;
