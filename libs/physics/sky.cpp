@@ -1,6 +1,7 @@
 #include "physics/sky.hpp"
 #include "base/angles.hpp"
 #include "physics/harmonics.hpp"
+#include "physics/shadow_edge.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -18,11 +19,16 @@ void SkyEvaluator::singleAlong(const RayNodes& ray, const double muSun, const do
 {
     const int wavelengths = optics_.wavelengths, scatterers = static_cast<int>(optics_.scatterers.size());
     std::vector<double> lit(scatterers * wavelengths, 0.), transmittance(wavelengths), phase(wavelengths);
+    const auto visible = visibleAlong(profile_.planet(), ray, muSun, nu, medium_.sunAngularRadius);
     std::vector<double> whole(scatterers, 0.), aside(scatterers, 0.); // phase functions are taken at the mean of all nodes
     for (size_t k = 0; k < ray.nodes.size(); ++k) {
         const auto& node = ray.nodes[k];
-        sun_.transmittance(node.altitude, node.sunScale * muSun + node.nuScale * nu, transmittance.data(),
-                           middles.empty() ? 0 : middles[k].rise);
+        if (visible[k] <= 0)
+            continue;
+        sun_.opticalDepth(node.altitude, node.sunScale * muSun + node.nuScale * nu, transmittance.data(),
+                          middles.empty() ? 0 : middles[k].rise);
+        for (double& value : transmittance)
+            value = visible[k] * std::exp(-value);
         for (int i = 0; i < scatterers; ++i)
             for (int w = 0; w < wavelengths; ++w)
                 lit[i * wavelengths + w] += ray.weights[(k * scatterers + i) * wavelengths + w] * transmittance[w];

@@ -157,6 +157,23 @@ double SunTable::axis(const double elevation, const double horizon) const
     return std::min(1., std::asinh(x / scale_) / axisLength(scale_, range));
 }
 
+void SunTable::opticalDepth(const double altitude, const double muSun, double* const result, const double rise) const
+{
+    opticalDepth(row(altitude), horizonElevation(planet_, altitude), std::asin(std::clamp(muSun + rise, -1., 1.)), result);
+}
+
+void SunTable::opticalDepth(const Row& place, const double horizon, const double elevation, double* const result) const
+{
+    const auto [row, y] = place;
+    const double u = axis(elevation, horizon) * (elevations_ - 1);
+    const int k = std::min(static_cast<int>(u), elevations_ - 2);
+    const double x = u - k;
+    const double* a = &depth_[(size_t(row) * elevations_ + k) * wavelengths_];
+    const double* b = a + elevations_ * wavelengths_;
+    for (int w = 0; w < wavelengths_; ++w)
+        result[w] = (1 - y) * ((1 - x) * a[w] + x * a[wavelengths_ + w]) + y * ((1 - x) * b[w] + x * b[wavelengths_ + w]);
+}
+
 void SunTable::transmittance(const double altitude, const double muSun, double* const result, const double rise) const
 {
     transmittance(row(altitude), horizonElevation(planet_, altitude), muSun, rise, result);
@@ -170,16 +187,9 @@ void SunTable::transmittance(const Row& place, const double horizon, const doubl
         std::fill(result, result + wavelengths_, 0.);
         return;
     }
-    const auto [row, y] = place;
-    const double u = axis(rise == 0 ? elevation : std::asin(std::clamp(muSun + rise, -1., 1.)), horizon) * (elevations_ - 1);
-    const int k = std::min(static_cast<int>(u), elevations_ - 2);
-    const double x = u - k;
-    const double* a = &depth_[(size_t(row) * elevations_ + k) * wavelengths_];
-    const double* b = a + elevations_ * wavelengths_;
-    for (int w = 0; w < wavelengths_; ++w) {
-        const double tau = (1 - y) * ((1 - x) * a[w] + x * a[wavelengths_ + w]) + y * ((1 - x) * b[w] + x * b[wavelengths_ + w]);
-        result[w] = visible * std::exp(-tau);
-    }
+    opticalDepth(place, horizon, rise == 0 ? elevation : std::asin(std::clamp(muSun + rise, -1., 1.)), result);
+    for (int w = 0; w < wavelengths_; ++w)
+        result[w] = visible * std::exp(-result[w]);
 }
 
 void SunTable::groundIrradiance(const double muSun, double* const result, const double rise) const

@@ -33,6 +33,8 @@ public:
     /// Transmitted share of sunlight, [wavelength], 0..1, disc averaged, horizon included.
     ///   rise  by how much the middle of its light stands higher than the disc's, as the sine of the elevation: what an eclipse does
     void transmittance(double altitude, double muSun, double* result, double rise = 0) const;
+    /// Optical depth towards the visible part of the disc, [wavelength]; below the horizon that of the last limb to be seen.
+    void opticalDepth(double altitude, double muSun, double* result, double rise = 0) const;
     /// Irradiance of the level ground by the direct Sun per unit irradiance outside, [wavelength].
     ///   error  < 3e-3 against 400 strips of the disc, through sunset: tests/physics/sun.cpp
     void groundIrradiance(double muSun, double* result, double rise = 0) const;
@@ -51,6 +53,7 @@ public:
     double axis(double elevation, double horizon) const;
 
 private:
+    void opticalDepth(const Row& row, double horizon, double elevation, double* result) const;
     void transmittance(const Row& row, double horizon, double muSun, double rise, double* result) const;
 
     Planet planet_;

@@ -18,11 +18,19 @@ float visibleDiscFraction(float above, float radius)
     return above > 0.0 ? 1.0 - segment : segment;
 }
 
-// Position 0..1 on the elevation axis of the table of sunlight. `scale` is physics::SunTable's (rad), `inverseRange` 1 / asinh(range / scale),
-// range = pi/2 - horizon + radius.
-float sunAxis(float elevation, float horizon, float radius, float scale, float inverseRange)
+// Fraction of the disc that shows to a node of a ray, which stands for its surroundings; elevations above the horizon of the nodes before, here and
+// after (rad). Twin with the reasons: libs/physics/shadow_edge.hpp.
+float visibleAlong(float before, float here, float after, float radius)
 {
-    float x = max(0.0, elevation - horizon + radius);
+    float b = before - here, a = after - here;
+    return visibleDiscFraction(here + (b + a) / 6.0, sqrt(radius * radius + (b * b - b * a + a * a) * (2.0 / 9.0)));
+}
+
+// Position 0..1 on the elevation axis of the table of sunlight. `above` the horizon (rad), `scale` physics::SunTable's (rad),
+// `inverseRange` 1 / asinh(range / scale), range = pi/2 - horizon + radius.
+float sunAxis(float above, float radius, float scale, float inverseRange)
+{
+    float x = max(0.0, above + radius);
     return min(1.0, inverseSinh(x / scale) * inverseRange);
 }
 

@@ -21,23 +21,22 @@ uniform int withPhase[SCATTERERS];
 uniform int resultOffsets[SCATTERERS + 1]; // in texels of the result buffer; the last for the ground
 #endif
 
-// Sunlight at a node; `place` is [horizon elevation, inverse range of the elevation axis, table row, fraction of a row].
-void sunlight(float elevation, vec4 place, out vec4 light[SETS])
+// Sunlight of the visible part of the disc; `place` is [horizon elevation, inverse range of the elevation axis, table row, fraction of a row].
+void sunlight(float visible, float above, vec4 place, out vec4 light[SETS])
 {
-    float visible = visibleDiscFraction(elevation - place.x, sunRadius);
     for (int q = 0; q < SETS; ++q)
         light[q] = vec4(0.0);
     if (visible <= 0.0)
         return;
-    float u = sunAxis(elevation, place.x, sunRadius, elevationScale, place.y) * float(elevations - 1);
+    float u = sunAxis(above, sunRadius, elevationScale, place.y) * float(elevations - 1);
     int k = min(int(u), elevations - 2);
     float x = u - float(k);
     int near = (int(place.z) * elevations + k) * totalSets, far = near + elevations * totalSets;
     for (int q = 0; q < SETS; ++q) {
         int set = setIndex(q);
-        vec4 below = mix(texelFetch(sunDepths, near + set), texelFetch(sunDepths, near + totalSets + set), x);
-        vec4 above = mix(texelFetch(sunDepths, far + set), texelFetch(sunDepths, far + totalSets + set), x);
-        light[q] = visible * exp(-mix(below, above, place.w));
+        vec4 low = mix(texelFetch(sunDepths, near + set), texelFetch(sunDepths, near + totalSets + set), x);
+        vec4 high = mix(texelFetch(sunDepths, far + set), texelFetch(sunDepths, far + totalSets + set), x);
+        light[q] = visible * exp(-mix(low, high, place.w));
     }
 }
 
@@ -52,9 +51,12 @@ void main()
         lit[i] = vec4(0.0);
     vec4 light[SETS];
 #ifndef GROUND_ONLY
+    float here = sunAbove(s, first), before = sunAbove(s, first + (nodes > 1 ? 2 : 0));
     for (int k = 0; k < nodes; ++k) {
-        vec4 node = texelFetch(rayNodes, first + 2 * k);
-        sunlight(elevationOf(clamp(node.x * s.muSun + node.y * s.nu, -1.0, 1.0)), texelFetch(rayNodes, first + 2 * k + 1), light);
+        float after = k + 1 < nodes ? sunAbove(s, first + 2 * k + 2) : before;
+        sunlight(visibleAlong(before, here, after, sunRadius), here, texelFetch(rayNodes, first + 2 * k + 1), light);
+        before = here;
+        here = after;
         int w = (s.ray * nodes + k) * SCATTERERS * totalSets;
         for (int i = 0; i < SCATTERERS; ++i)
             for (int q = 0; q < SETS; ++q)
@@ -80,7 +82,9 @@ void main()
     if (node.w > 0.0) {
         float muSun = clamp(node.x * s.muSun + node.y * s.nu, -1.0, 1.0);
         float elevation = elevationOf(muSun);
-        sunlight(elevation, texelFetch(rayNodes, first + 2 * nodes + 1), light);
+        vec4 place = texelFetch(rayNodes, first + 2 * nodes + 1);
+        float above = elevation - place.x;
+        sunlight(visibleDiscFraction(above, sunRadius), above, place, light);
         float cosine = horizontalSunCosine(muSun, elevation, sunRadius);
         for (int q = 0; q < SETS; ++q)
             total[q] += texelFetch(ground, s.ray * totalSets + setIndex(q)) * cosine * light[q];

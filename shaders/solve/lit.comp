@@ -19,13 +19,15 @@ void main()
     vec4 radiance[SCATTERERS];
     for (int i = 0; i < SCATTERERS; ++i)
         radiance[i] = vec4(0.0);
+    float here = sunAbove(s, first), before = sunAbove(s, first + (nodes > 1 ? 2 : 0));
     for (int k = 0; k < nodes; ++k) {
-        vec4 node = texelFetch(rayNodes, first + 2 * k), place = texelFetch(rayNodes, first + 2 * k + 1);
-        float elevation = elevationOf(clamp(node.x * s.muSun + node.y * s.nu, -1.0, 1.0));
-        float visible = visibleDiscFraction(elevation - place.x, sunRadius);
+        float after = k + 1 < nodes ? sunAbove(s, first + 2 * k + 2) : before, above = here;
+        float visible = visibleAlong(before, here, after, sunRadius);
+        before = here;
+        here = after;
         if (visible <= 0.0)
             continue;
-        float u = sunAxis(elevation, place.x, sunRadius, elevationScale, place.y) * float(elevations - 1);
+        float u = sunAxis(above, sunRadius, elevationScale, texelFetch(rayNodes, first + 2 * k + 1).y) * float(elevations - 1);
         int e = min(int(u), elevations - 2);
         int at = ((int(gl_GlobalInvocationID.y) * nodes + k) * elevations + e) * SCATTERERS;
         for (int i = 0; i < SCATTERERS; ++i) {

@@ -39,6 +39,13 @@ Sample sampleOfInvocation(float rayMu)
     return s;
 }
 
+// Elevation of the Sun's centre above the horizon of a node of the direct light, rad; `at` is the node's first texel.
+float sunAbove(Sample s, int at)
+{
+    vec4 node = texelFetch(rayNodes, at);
+    return elevationOf(clamp(node.x * s.muSun + node.y * s.nu, -1.0, 1.0)) - texelFetch(rayNodes, at + 1).x;
+}
+
 // Spectral results: set q of a texel.
 void storeSet(int texel, int q, vec4 radiance)
 {

@@ -3,6 +3,7 @@
 #include "aerial_axis.hpp"
 #include "base/angles.hpp"
 #include "base/parallel.hpp"
+#include "physics/shadow_edge.hpp"
 #include "physics/sky.hpp"
 #include <algorithm>
 #include <cmath>
@@ -217,13 +218,14 @@ void Aerial::growLight(int view, const Line& line, const float* shares)
             for (std::size_t w = 0; w < wavelengths; ++w)
                 ratios[i][w] /= 1 - optics.truncation[static_cast<std::size_t>(optics.scatterers[i]) * wavelengths + w];
         }
+        const auto visible = physics::visibleAlong(atmosphere_.planet(), single, muSun, nu, atmosphere_.medium.sunAngularRadius);
         for (std::size_t n = 0; n < single.nodes.size(); ++n) {
             const auto& node = single.nodes[n];
             const SunSeen seen = scene_.eclipse ? scene_.eclipse->sun(direction, node) : SunSeen{1, {}};
-            sun_.transmittance(node.altitude, std::clamp(node.sunScale * muSun + node.nuScale * nu, -1., 1.), light.data(),
-                               seen.middle.rise);
+            sun_.opticalDepth(node.altitude, std::clamp(node.sunScale * muSun + node.nuScale * nu, -1., 1.), light.data(),
+                              seen.middle.rise);
             for (double& value : light)
-                value *= seen.share;
+                value = seen.share * visible[n] * std::exp(-value);
             for (std::size_t i = 0; i < scatterers; ++i)
                 for (std::size_t w = 0; w < wavelengths; ++w)
                     lit[i * wavelengths + w] += single.weights[n * stride + i * wavelengths + w] * light[w];

@@ -6,6 +6,7 @@
 #include "base/parallel.hpp"
 #include "physics/field_fold.hpp"
 #include "physics/harmonics.hpp"
+#include "physics/shadow_edge.hpp"
 #include "physics/table_axes.hpp"
 #include <algorithm>
 #include <cmath>
@@ -212,29 +213,30 @@ const float* MomentGather::folded(Ray& ray, int node, int sun) const
     return result;
 }
 
-void MomentGather::sunlight(const Node& node, float elevation, float* result) const
+void MomentGather::sunlight(const Node& node, double visible, float aboveHorizon, float* result) const
 {
-    const auto visible =
-        static_cast<float>(physics::visibleDiscFraction(static_cast<double>(elevation - node.horizon), static_cast<double>(sunRadius_)));
     if (visible <= 0) {
         std::fill(result, result + stride_, 0.f);
         return;
     }
     const int elevations = sun_.elevationCount();
-    const float above = std::max(0.f, elevation - node.horizon + sunRadius_);
+    const float above = std::max(0.f, aboveHorizon + sunRadius_);
     const float scale = static_cast<float>(sun_.elevationScale());
     const float u = std::min(1.f, std::asinh(above / scale) * node.inverseRange) * static_cast<float>(elevations - 1);
     const int k = std::min(static_cast<int>(u), elevations - 2);
     const float* near = &sunDepths_[static_cast<std::size_t>((node.sunRow * elevations + k) * stride_)];
-    transmit(near, near + elevations * stride_, u - static_cast<float>(k), node.sunRowShare, visible, stride_, result);
+    transmit(near, near + elevations * stride_, u - static_cast<float>(k), node.sunRowShare, static_cast<float>(visible), stride_, result);
 }
 
 void MomentGather::addSingle(const Ray& ray, float muSun, float nu, float* lit) const
 {
     std::vector<float> light(static_cast<std::size_t>(stride_));
+    std::vector<double> above;
+    for (const Node& node : ray.single)
+        above.push_back(static_cast<double>(std::asin(clampedSine(node.sunScale * muSun + node.nuScale * nu)) - node.horizon));
+    const auto visible = physics::visibleAlong(above, static_cast<double>(sunRadius_));
     for (std::size_t k = 0; k < ray.single.size(); ++k) {
-        const Node& node = ray.single[k];
-        sunlight(node, std::asin(clampedSine(node.sunScale * muSun + node.nuScale * nu)), light.data());
+        sunlight(ray.single[k], visible[k], static_cast<float>(above[k]), light.data());
         addProducts(&ray.singleWeights[k * static_cast<std::size_t>(scatterers_ * stride_)], light.data(), scatterers_, stride_, lit);
     }
 }
@@ -271,7 +273,8 @@ void MomentGather::addGround(const Ray& ray, float muSun, float nu, const Layers
     const float muSunThere = clampedSine(node.sunScale * muSun + node.nuScale * nu);
     const float elevation = std::asin(muSunThere);
     std::vector<float> light(static_cast<std::size_t>(stride_));
-    sunlight(node, elevation, light.data());
+    const float above = elevation - node.horizon;
+    sunlight(node, physics::visibleDiscFraction(static_cast<double>(above), static_cast<double>(sunRadius_)), above, light.data());
     const auto cosine = static_cast<float>(physics::horizontalSunCosine(static_cast<double>(muSunThere), static_cast<double>(sunRadius_)));
     for (float& value : light)
         value *= layers.groundDirect ? cosine : 0.f;

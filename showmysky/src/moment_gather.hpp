@@ -60,7 +60,7 @@ private:
     void trace(int ray, sky::physics::RayTracer& tracer) const;
     Node nodeOf(const sky::physics::RayNodes::Node& node) const;
     const float* folded(Ray& ray, int node, int sun) const;
-    void sunlight(const Node& node, float elevation, float* result) const;
+    void sunlight(const Node& node, double visible, float aboveHorizon, float* result) const;
     void addSingle(const Ray& ray, float muSun, float nu, float* lit) const;
     void addMultiple(Ray& ray, float muSun, float nu, float* radiance) const;
     void addGround(const Ray& ray, float muSun, float nu, const LayersUsed& layers, float* radiance) const;

@@ -1,6 +1,7 @@
 #include "photometry_gather.hpp"
 #include "base/angles.hpp"
 #include "physics/harmonics.hpp"
+#include "physics/shadow_edge.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -246,6 +247,7 @@ void FastGather::gatherSingle(FastScratch& scratch, const double muSun, const do
              static_cast<float>(sun_.elevationScale()));
     const int elevations = sun_.elevationCount(), count = set.count();
     SunNode nodes[64];
+    const auto above = [&scratch](int node) { return double(scratch.above[node]); };
     scratch.lit.assign(scatterers_ * blocks_, Block{all(0)});
     for (int from = 0; from < count; from += 64) {
         const int part = std::min(64, count - from);
@@ -255,8 +257,9 @@ void FastGather::gatherSingle(FastScratch& scratch, const double muSun, const do
             const float u = scratch.places[node] * static_cast<float>(elevations - 1);
             const int k = std::min(static_cast<int>(u), elevations - 2);
             const Block* low = &depth_[(static_cast<std::size_t>(row.row) * elevations + k) * blocks_];
+            const double next = above(node + 1 < count ? node + 1 : count - 2), before = node > 0 ? above(node - 1) : next;
             nodes[j] = {low, low + elevations * blocks_, u - static_cast<float>(k), row.share,
-                        static_cast<float>(physics::visibleDiscFraction(double(scratch.above[node]), sunRadius_))};
+                        static_cast<float>(physics::visibleAlong(before, above(node), next, sunRadius_))};
         }
         addSunlight(nodes, part, scatterers_, blocks_, &set.weights[static_cast<std::size_t>(from) * scatterers_ * blocks_],
                     scratch.lit.data());

@@ -5,6 +5,7 @@
 #include "gl/program.hpp"
 #include "physics/moments.hpp"
 #include "physics/quadrature.hpp"
+#include "physics/shadow_edge.hpp"
 #include "physics/sun.hpp"
 #include "sky_shaders.hpp"
 #include <cmath>
@@ -132,6 +133,26 @@ TEST_CASE("shader: visible part of the disc", "[gl]")
     }
 }
 
+TEST_CASE("shader: part of the disc that shows to a node and its neighbours", "[gl]")
+{
+    const auto context = gl::testing::context();
+    if (!context)
+        return;
+    std::vector<Vec4> inputs;
+    for (const float radius : {0.F, 0.00465F})
+        for (const float before : {-0.01F, 0.F, 0.003F})
+            for (const float after : {-0.002F, 0.F, 0.02F})
+                for (const float here : {-0.02F, -0.004F, 0.F, 0.001F})
+                    inputs.push_back({here + before, here, here + after, radius});
+    const auto values = evaluate(context->api(), "lib/sun.glsl", "visibleAlong(x.x, x.y, x.z, x.w)", inputs);
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+        INFO("before " << inputs[i][0] << " here " << inputs[i][1] << " after " << inputs[i][2] << " radius " << inputs[i][3]);
+        const double expected =
+            physics::visibleAlong(double(inputs[i][0]), double(inputs[i][1]), double(inputs[i][2]), double(inputs[i][3]));
+        CHECK(double(values[i]) == Approx(expected).margin(2e-6)); // differences of elevations are rounded
+    }
+}
+
 TEST_CASE("shader: axes of the tables over the Sun's elevation", "[gl]")
 {
     const auto context = gl::testing::context();
@@ -156,12 +177,12 @@ TEST_CASE("shader: axes of the tables over the Sun's elevation", "[gl]")
         for (const double e : elevations)
             for (const double horizon : {0., -0.0018, -0.19})
                 for (const double radius : {0., 0.0046})
-                    sun.push_back({static_cast<float>(e), static_cast<float>(horizon), static_cast<float>(radius),
+                    sun.push_back({static_cast<float>(e - horizon), static_cast<float>(horizon), static_cast<float>(radius),
                                    static_cast<float>(1 / std::asinh((pi / 2 - horizon + radius) / scale))});
-        const auto values = evaluate(context->api(), "lib/sun.glsl", "sunAxis(x.x, x.y, x.z, " + std::to_string(scale) + ", x.w)", sun);
+        const auto values = evaluate(context->api(), "lib/sun.glsl", "sunAxis(x.x, x.z, " + std::to_string(scale) + ", x.w)", sun);
         for (std::size_t i = 0; i < sun.size(); ++i) {
-            const double x = std::max(0., double(sun[i][0]) - double(sun[i][1]) + double(sun[i][2]));
-            INFO("elevation " << sun[i][0] << " horizon " << sun[i][1] << " scale " << scale);
+            const double x = std::max(0., double(sun[i][0]) + double(sun[i][2]));
+            INFO("above " << sun[i][0] << " horizon " << sun[i][1] << " scale " << scale);
             CHECK(double(values[i]) == Approx(std::min(1., std::asinh(x / scale) * double(sun[i][3]))).margin(1e-6));
         }
     }
