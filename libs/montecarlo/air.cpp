@@ -6,32 +6,38 @@
 namespace sky::montecarlo {
 namespace {
 
-constexpr int guideCosines = 1024;
+constexpr double finest = 1e-6; // sine of an elevation
+constexpr int strips = 7;       // of the Sun's disc
 constexpr std::size_t altitudeBins = 4096;
 
 } // namespace
 
-Guide::Guide(const Profile& profile)
+Guide::Guide(const Profile& profile, const double sunAngularRadius) : bins_(finest, -2, 2)
 {
+    const double radius = profile.planetRadius();
+    std::vector<double> point(static_cast<std::size_t>(bins_.count()));
     for (int shell = 0; shell < profile.shellCount(); ++shell) {
         const Place place{profile.middleAltitude(shell), {0, 0, 1}};
-        for (int i = 0; i < guideCosines; ++i) {
-            const double mu = (2 * i + 1.0) / guideCosines - 1;
-            const Ray ray = rayFrom(profile.planetRadius(), place, {std::sqrt(1 - mu * mu), 0, mu});
-            const double t = ray.hitsGround() ? 0 : std::exp(-profile.opticalDepthToSpace(ray));
-            transmittance_.push_back(static_cast<float>(t));
+        const double horizon = std::sqrt(radialSquare(radius, place.altitude)) / (radius + place.altitude);
+        for (int i = 0; i < bins_.count(); ++i) {
+            const double aboveHorizon = bins_.middle(i), mu = std::min(1., aboveHorizon - horizon);
+            const Ray ray = rayFrom(radius, place, {std::sqrt(1 - mu * mu), 0, mu});
+            point[static_cast<std::size_t>(i)] = aboveHorizon > 0 ? std::exp(-profile.opticalDepthToSpace(ray)) : 0;
+        }
+        for (int i = 0; i < bins_.count(); ++i) {
+            double sum = 0, weights = 0;
+            for (int strip = 0; strip < strips; ++strip) {
+                const double across = (2. * strip + 1) / strips - 1, chord = std::sqrt(1 - across * across);
+                sum += chord * point[static_cast<std::size_t>(bins_.of(bins_.middle(i) + across * std::sin(sunAngularRadius)))];
+                weights += chord;
+            }
+            transmittance_.push_back(sum / weights);
         }
     }
 }
 
-double Guide::operator()(int shell, double muSun) const
-{
-    const int i = std::clamp(static_cast<int>((muSun + 1) * (guideCosines / 2)), 0, guideCosines - 1);
-    return static_cast<double>(transmittance_[static_cast<std::size_t>(shell * guideCosines + i)]);
-}
-
 Air::Air(const physics::Medium& medium, int wavelength)
-    : profile_(medium, wavelength), guide_(profile_), groundAlbedo_(medium.groundAlbedo[wavelength]),
+    : profile_(medium, wavelength), guide_(profile_, medium.sunAngularRadius), groundAlbedo_(medium.groundAlbedo[wavelength]),
       sunAngularRadius_(medium.sunAngularRadius), altitudes_(medium.altitudes)
 {
     for (const physics::Species& species : medium.species) {

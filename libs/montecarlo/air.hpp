@@ -1,6 +1,7 @@
 #pragma once
 // The atmosphere at one wavelength as the random paths see it.
 
+#include "montecarlo/crowded_bins.hpp"
 #include "montecarlo/glow.hpp"
 #include "montecarlo/phase.hpp"
 #include "montecarlo/profile.hpp"
@@ -19,16 +20,20 @@ struct Local {
     std::vector<double> scattering; ///< [scattering species], 1/m
 };
 
-/// Where light of the Sun is likely: the transmittance towards it from the middle of each shell, by the cosine of its
-/// zenith angle. It only guides where collisions are sampled, so its resolution is of no consequence for the mean.
+/// Where light of the Sun is likely: the transmittance towards its disc from the middle of each shell, by the sine of its elevation above
+/// the horizon there. It only guides where collisions are sampled, so its resolution is of no consequence for the mean.
 class Guide
 {
 public:
-    explicit Guide(const Profile& profile);
-    double operator()(int shell, double muSun) const;
+    Guide(const Profile& profile, double sunAngularRadius);
+    double operator()(int shell, double aboveHorizon) const
+    {
+        return transmittance_[static_cast<std::size_t>(shell * bins_.count() + bins_.of(aboveHorizon))];
+    }
 
 private:
-    std::vector<float> transmittance_;
+    CrowdedBins<4> bins_;
+    std::vector<double> transmittance_;
 };
 
 class Air

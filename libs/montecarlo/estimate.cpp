@@ -47,8 +47,9 @@ void runBatches(const std::function<BatchMean()>& make, std::uint64_t seed, int 
 
 void addPaths(const Air& air, const Scene& scene, Orders orders, const Query& query, const Settings& settings, Result& result)
 {
-    const std::optional<Glow> eclipsed = scene.eclipse ? std::optional<Glow>(std::in_place, air, scene) : std::nullopt;
-    const Glow& glow = eclipsed ? *eclipsed : air.glow();
+    const bool once = orders.last == 1;
+    const std::optional<Glow> eclipsed = scene.eclipse && !once ? std::optional<Glow>(std::in_place, air, scene) : std::nullopt;
+    const Glow* const glow = once ? nullptr : eclipsed ? &*eclipsed : &air.glow();
     const auto make = [&]() -> BatchMean {
         return [tracer = std::make_shared<PathTracer>(air, scene, orders, glow)](Random& random, int paths) {
             return tracer->batchMean(random, paths);

@@ -1,6 +1,7 @@
 #include "montecarlo/glow.hpp"
 
 #include "base/angles.hpp"
+#include "base/parallel.hpp"
 #include "montecarlo/air.hpp"
 #include "montecarlo/single.hpp"
 
@@ -14,12 +15,29 @@ namespace {
 using base::pi;
 
 // Rough, since whatever they miss only costs paths.
-constexpr std::size_t levels = 16, bandCount = 20, sectorCount = 12, suns = 48, sunBins = 2048;
-constexpr double bandCrowding = 3, sunCrowding = 4; // towards the horizon: a of sinh(a v)
-constexpr int events = 6;                           // scatterings followed one by one; the rest is a geometric series
+constexpr std::size_t levels = 16, bandCount = 20, sectorCount = 12, together = 3; // sectors that count as one while the series is summed
+constexpr double thin = 3e-3;                                                      // optical depth
+constexpr double finestSun = 0.15, finestBand = 0.8;                               // where bins begin to widen, in units of twilight()
+constexpr int events = 6; // scatterings followed one by one; the rest is a geometric series
 
-/// Angles from -pi/2 to pi/2, crowded about 0, at v in -1 .. 1.
-double crowded(double v, double a) { return 0.5 * pi * std::sinh(a * v) / std::sinh(a); }
+/// Sine of the dip of the horizon.
+double horizonSine(const Profile& profile, double altitude)
+{
+    return std::sqrt(radialSquare(profile.planetRadius(), altitude)) / (profile.planetRadius() + altitude);
+}
+
+/// The angle that the Sun sinks by in the course of twilight, as far as the air counts: the dip of the horizon from where a level ray meets
+/// nothing more to speak of. No more than a fifth, rad.
+double twilight(const Profile& profile)
+{
+    double low = 0, high = profile.topOfAtmosphere();
+    for (int halving = 0; halving < 30; ++halving) {
+        const double middle = 0.5 * (low + high);
+        const Ray level = rayFrom(profile.planetRadius(), {middle, {0, 0, 1}}, {1, 0, 0});
+        (profile.opticalDepthToSpace(level) < thin ? high : low) = middle;
+    }
+    return std::clamp(horizonSine(profile, high), 1e-5, 0.2);
+}
 
 } // namespace
 
@@ -28,6 +46,7 @@ struct Glow::Sight {
     struct Part {
         int shell;
         double distance, inverseRadius; // m, 1/m
+        double horizon;                 // sine of its dip
         double share;                   // of the light that meets it here
         bool ground = false;
     };
@@ -46,13 +65,10 @@ struct Glow::Sight {
 Glow::Glow(const Air& air)
 {
     layOut(air);
-    for (std::size_t i = 0; i < suns; ++i)
-        sunCosines_.push_back(std::sin(crowded((2. * static_cast<double>(i) + 1) / suns - 1, sunCrowding)));
-    for (std::size_t i = 0; i < sunBins; ++i) {
-        const double elevation = std::asin((2. * static_cast<double>(i) + 1) / sunBins - 1);
-        const double v = std::asinh(elevation * std::sinh(sunCrowding) / (0.5 * pi)) / sunCrowding;
-        sunOfBin_.push_back(static_cast<std::size_t>(std::clamp((v + 1) * suns / 2, 0., suns - 1.)));
-    }
+    const Profile& profile = air.profile();
+    sunBins_.emplace(twilight(profile) * finestSun, -horizonSine(profile, profile.topOfAtmosphere()) - std::sin(air.sunAngularRadius()), 1);
+    for (int i = 0; i < sunBins_->count(); ++i)
+        sunCosines_.push_back(std::clamp(sunBins_->middle(i), -1., 1.));
     fill(air, nullptr);
 }
 
@@ -60,15 +76,16 @@ Glow::Glow(const Air& air, const Scene& scene)
 {
     layOut(air);
     sunCosines_ = {dot(scene.camera.up, scene.sun.centre())};
-    sunOfBin_ = {0};
     fill(air, &*scene.eclipse);
 }
 
 void Glow::layOut(const Air& air)
 {
     const Profile& profile = air.profile();
+    const double scale = finestBand * twilight(profile), whole = std::asinh(0.5 * pi / scale);
     for (std::size_t i = 0; i <= bandCount; ++i)
-        cosineEdges_.push_back(std::sin(crowded(2. * static_cast<double>(i) / bandCount - 1, bandCrowding)));
+        cosineEdges_.push_back(
+            std::sin(std::clamp(scale * std::sinh(whole * (2. * static_cast<double>(i) / bandCount - 1)), -0.5 * pi, 0.5 * pi)));
     for (std::size_t i = 0; i <= sectorCount; ++i) {
         azimuthEdges_.push_back(pi * std::pow(static_cast<double>(i) / sectorCount, 1.5));
         azimuthCosines_.push_back(std::cos(azimuthEdges_.back()));
@@ -92,15 +109,9 @@ void Glow::layOut(const Air& air)
             std::upper_bound(levelEdges_.begin(), levelEdges_.end(), profile.middleAltitude(shell)) - levelEdges_.begin()));
 }
 
-double Glow::solidAngle(std::size_t band, std::size_t sector) const
+double Glow::solidAngle(std::size_t band, std::size_t sector, std::size_t together) const
 {
-    return 2 * (cosineEdges_[band + 1] - cosineEdges_[band]) * (azimuthEdges_[sector + 1] - azimuthEdges_[sector]);
-}
-
-std::size_t Glow::sunOf(double muSun) const
-{
-    const auto bins = static_cast<double>(sunOfBin_.size());
-    return sunOfBin_[static_cast<std::size_t>(std::clamp((muSun + 1) * 0.5 * bins, 0., bins - 1))];
+    return 2 * (cosineEdges_[band + 1] - cosineEdges_[band]) * (azimuthEdges_[sector + together] - azimuthEdges_[sector]);
 }
 
 Glow::Sight Glow::sightAt(const Air& air, std::size_t level, std::size_t band) const
@@ -121,7 +132,8 @@ Glow::Sight Glow::sightAt(const Air& air, std::size_t level, std::size_t band) c
         if (!(local.bright > 0))
             continue;
         const double share = chance * local.bright / local.extinction;
-        sight.parts.push_back({segment.shell, middle, 1 / std::sqrt(radius * radius + ray.at(middle)), share});
+        const double x = std::max(0., ray.at(middle)), inverseRadius = 1 / std::sqrt(radius * radius + x);
+        sight.parts.push_back({segment.shell, middle, inverseRadius, std::sqrt(x) * inverseRadius, share});
         sight.species.resize(local.scattering.size());
         for (std::size_t i = 0; i < local.scattering.size(); ++i)
             sight.species[i] += chance * local.scattering[i] / local.extinction;
@@ -130,7 +142,7 @@ Glow::Sight Glow::sightAt(const Air& air, std::size_t level, std::size_t band) c
     for (double& share : sight.species)
         share = all > 0 ? share / all : 0;
     if (leg.hitsGround && air.groundAlbedo() > 0)
-        sight.parts.push_back({0, leg.length, 1 / radius, transmittance * air.groundAlbedo(), true});
+        sight.parts.push_back({0, leg.length, 1 / radius, 0, transmittance * air.groundAlbedo(), true});
     return sight;
 }
 
@@ -145,7 +157,7 @@ double Glow::sunlit(const Air& air, const Sight& sight, double muSun, double azi
     double sum = 0;
     for (const Sight::Part& part : sight.parts) {
         const double mu = (start * muSun + part.distance * nu) * part.inverseRadius;
-        const double light = air.guide()(part.shell, mu) * (part.ground ? std::max(0., mu) / pi : phase);
+        const double light = air.guide()(part.shell, mu + part.horizon) * (part.ground ? std::max(0., mu) / pi : phase);
         sum += part.share * light * (eclipse ? eclipse->guess(start * sight.place.up + part.distance * direction) : 1);
     }
     return sum;
@@ -167,39 +179,43 @@ void Glow::fill(const Air& air, const Eclipse* eclipse)
     for (std::size_t level = 0; level < heights; ++level)
         for (std::size_t band = 0; band < bands(); ++band)
             sights.push_back(sightAt(air, level, band));
-    // Calls light(sight, muSun, azimuth) for each bin of a map, and weighs it with its solid angle.
-    const auto look = [&](std::size_t map, const auto& light, double* result) {
+    const std::size_t maps = heights * elevations;
+    // Calls visit(map) for all maps, on all threads.
+    const auto each = [&](const auto& visit) {
+        base::parallel([&](int thread, int threads) {
+            for (auto map = static_cast<std::size_t>(thread); map < maps; map += static_cast<std::size_t>(threads))
+                visit(map);
+        });
+    };
+    // Calls light(sight, muSun, azimuth) for each bin of a map, and weighs it with its solid angle; of each so many sectors the middle stands for all.
+    const auto look = [&](std::size_t map, std::size_t together, const auto& light, const auto& take) {
         for (std::size_t band = 0; band < bands(); ++band)
-            for (std::size_t sector = 0; sector < sectors(); ++sector) {
-                const double azimuth = 0.5 * (azimuthEdges_[sector] + azimuthEdges_[sector + 1]);
-                *result++ =
-                    solidAngle(band, sector) * light(sights[map / elevations * bands() + band], sunCosines_[map % elevations], azimuth);
+            for (std::size_t sector = 0; sector < sectors(); sector += together) {
+                const double azimuth = 0.5 * (azimuthEdges_[sector] + azimuthEdges_[sector + together]);
+                take(band * sectors() + sector, solidAngle(band, sector, together) * light(sights[map / elevations * bands() + band],
+                                                                                           sunCosines_[map % elevations], azimuth));
             }
     };
-    const std::size_t maps = heights * elevations;
-    std::vector<double> direct(maps * bins), light(bins);
-    for (std::size_t map = 0; map < maps; ++map)
+    std::vector<double> direct(maps * bins), once(maps);
+    each([&](std::size_t map) {
         look(
-            map,
+            map, 1,
             [&](const Sight& sight, double muSun, double azimuth) {
                 const double one = sunlit(air, sight, muSun, azimuth, eclipse); // the Moon may stand beside the Sun's vertical
                 return eclipse ? 0.5 * (one + sunlit(air, sight, muSun, -azimuth, eclipse)) : one;
             },
-            &direct[map * bins]);
+            [&](std::size_t bin, double light) {
+                direct[map * bins + bin] = light;
+                once[map] += light;
+            });
+    });
 
     const auto again = [&](const Sight& sight, double muSun, double azimuth) { return skylit(air, sight, muSun, azimuth); };
-    diffuse_.assign(maps, 0);
-    std::vector<double> added(maps), addedBefore(maps);
-    for (int event = 0; event < events; ++event) {
-        std::vector<double> next(maps);
-        for (std::size_t map = 0; map < maps; ++map) {
-            const auto first = direct.begin() + static_cast<std::ptrdiff_t>(map * bins);
-            next[map] = std::accumulate(first, first + static_cast<std::ptrdiff_t>(bins), 0.);
-            if (event > 0) {
-                look(map, again, light.data());
-                next[map] += std::accumulate(light.begin(), light.end(), 0.);
-            }
-        }
+    diffuse_ = once;
+    std::vector<double> added = once, addedBefore(maps);
+    for (int event = 1; event < events; ++event) {
+        std::vector<double> next = once;
+        each([&](std::size_t map) { look(map, together, again, [&](std::size_t, double light) { next[map] += light; }); });
         addedBefore = added;
         for (std::size_t map = 0; map < maps; ++map)
             added[map] = next[map] - diffuse_[map];
@@ -211,12 +227,12 @@ void Glow::fill(const Air& air, const Eclipse* eclipse)
             diffuse_[map] += added[map] * ratio / (1 - ratio);
 
     maps_.assign(maps * mapSize(), 0);
-    for (std::size_t map = 0; map < maps; ++map) {
-        look(map, again, light.data());
-        for (std::size_t bin = 0; bin < bins; ++bin)
-            light[bin] += direct[map * bins + bin];
+    each([&](std::size_t map) {
+        std::vector<double> light(direct.begin() + static_cast<std::ptrdiff_t>(map * bins),
+                                  direct.begin() + static_cast<std::ptrdiff_t>((map + 1) * bins));
+        look(map, 1, again, [&](std::size_t bin, double more) { light[bin] += more; });
         draw(light, &maps_[map * mapSize()]);
-    }
+    });
 }
 
 void Glow::draw(const std::vector<double>& light, float* map) const

@@ -1,8 +1,10 @@
 #pragma once
 // Where scattered light comes from, roughly: tells random paths where to look for it. It only guides; any map gives the same mean.
 
+#include "montecarlo/crowded_bins.hpp"
 #include "montecarlo/profile.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace sky::montecarlo {
@@ -44,21 +46,22 @@ private:
     double sunlit(const Air& air, const Sight& sight, double muSun, double azimuth, const Eclipse* eclipse) const;
     double skylit(const Air& air, const Sight& sight, double muSun, double azimuth) const;
     Sight sightAt(const Air& air, std::size_t level, std::size_t band) const;
-    std::size_t sunOf(double muSun) const;
+    std::size_t sunOf(double muSun) const { return sunBins_ ? static_cast<std::size_t>(sunBins_->of(muSun)) : 0; }
     const float* mapOf(std::size_t level, std::size_t sun) const { return &maps_[(level * sunCosines_.size() + sun) * mapSize()]; }
     std::size_t bands() const { return cosineEdges_.size() - 1; }
     std::size_t sectors() const { return azimuthEdges_.size() - 1; }
     std::size_t mapSize() const { return bands() * (1 + sectors()); }
-    double solidAngle(std::size_t band, std::size_t sector) const;
+    /// Of so many sectors together, from one on, on both sides of the Sun.
+    double solidAngle(std::size_t band, std::size_t sector, std::size_t together = 1) const;
 
     std::vector<double> cosineEdges_;                   ///< of the bands' zenith angles, from nadir to zenith
     std::vector<double> azimuthEdges_, azimuthCosines_; ///< of the sectors, from the Sun's azimuth to half a turn; both sides share a bin
     std::vector<double> levelAltitudes_, levelEdges_;   ///< m
     std::vector<std::size_t> levelOfShell_;
-    std::vector<double> sunCosines_; ///< one for all in an eclipse
-    std::vector<std::size_t> sunOfBin_;
-    std::vector<double> diffuse_; ///< [level][sun] from all sides
-    std::vector<float> maps_;     ///< [level][sun]: cumulative shares of the bands, then in each band of its sectors
+    std::vector<double> sunCosines_;        ///< one for all in an eclipse
+    std::optional<CrowdedBins<2>> sunBins_; ///< about the horizontal; nothing in an eclipse
+    std::vector<double> diffuse_;           ///< [level][sun] from all sides
+    std::vector<float> maps_;               ///< [level][sun]: cumulative shares of the bands, then in each band of its sectors
 };
 
 } // namespace sky::montecarlo

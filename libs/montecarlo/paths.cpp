@@ -10,10 +10,12 @@ namespace {
 
 using base::pi;
 
-constexpr double plainShare = 0.5; // of events placed by optical depth alone; bounds the guide's weights by 2
-// Weight from which a path no longer follows the guide. In clouds a path has dozens of events; the product of as many guided weights would
-// have a tail so long that the mean of any number of paths misses it.
-constexpr double heavy = 2;
+constexpr double followed = 0.5; // of events placed where light is: bounds each such weight by 2
+
+/// How far a path of some weight still follows the guides. In clouds a path has dozens of events; the product of as many guided weights would
+/// have a tail so long that the mean of any number of paths misses it. Like this a weight grows by so much an event at most, and yet finds light.
+double trust(double weight) { return std::min(1., 1 / weight); }
+
 constexpr double aimedShare = 0.15; // of directions after a scattering that are drawn about the Sun
 constexpr double peaked = 15;       // forward value of a phase function, in units of the isotropic one, worth aiming for
 
@@ -24,13 +26,18 @@ double glowShare(double forward, int order) { return (order <= 2 ? 0.75 : 0.3) /
 
 } // namespace
 
-PathTracer::PathTracer(const Air& air, const Scene& scene, Orders orders, const Glow& glow)
+PathTracer::PathTracer(const Air& air, const Scene& scene, Orders orders, const Glow* glow)
     : air_(air), scene_(scene), orders_(orders), glow_(glow)
 {
     firstRay_ = rayFrom(air_.profile().planetRadius(), scene_.camera, scene_.view);
     air_.profile().trace(firstRay_, firstLeg_);
     // The ground in direct view is a layer of its own: the first event is in the air.
-    prepare(scene_.camera, scene_.view, firstRay_, firstLeg_, 0, wantedAt(1), firstChoice_);
+    prepare(scene_.camera, scene_.view, firstRay_, firstLeg_, 0, wantedAt(1, 1), firstChoice_);
+}
+
+PathTracer::Wanted PathTracer::wantedAt(int order, double weight) const
+{
+    return {order >= orders_.first, order != orders_.last, followed * trust(weight)};
 }
 
 double PathTracer::batchMean(Random& random, int paths)
@@ -58,14 +65,14 @@ void PathTracer::prepare(const Place& place, Vec direction, const Ray& ray, cons
     const double radius = air_.profile().planetRadius();
     const double upSun = (radius + place.altitude) * dot(place.up, scene_.sun.centre());
     const double alongSun = dot(direction, scene_.sun.centre());
-    const auto muSunAt = [&](double s) { return (upSun + s * alongSun) / std::sqrt(radius * radius + ray.at(s)); };
     const auto bright = [&](double s) {
         return scene_.eclipse ? scene_.eclipse->guess((radius + place.altitude) * place.up + s * direction) : 1.0;
     };
     const auto lightAt = [&](int shell, double s, double sunlit) {
-        const double muSun = muSunAt(s);
-        return (wanted.direct ? sunlit * air_.guide()(shell, muSun) * bright(s) : 0) +
-               (wanted.scattered ? glow_.fromAllSides(shell, muSun) : 0);
+        const double x = std::max(0., ray.at(s)), inverseRadius = 1 / std::sqrt(radius * radius + x);
+        const double muSun = (upSun + s * alongSun) * inverseRadius;
+        return (wanted.direct ? sunlit * air_.guide()(shell, muSun + std::sqrt(x) * inverseRadius) * bright(s) : 0) +
+               (wanted.scattered ? glow_->fromAllSides(shell, muSun) : 0);
     };
     // Here `cumulative` holds the plain chance of each event and `weight` the guide's factor.
     choice.cumulative.clear();
@@ -84,17 +91,16 @@ void PathTracer::prepare(const Place& place, Vec direction, const Ray& ray, cons
     }
     if (leg.hitsGround && groundAlbedo > 0) {
         // Sunlight leaves the ground as mu / pi, the air as about 1 / (4 pi).
-        add(transmittance * groundAlbedo, lightAt(0, leg.length, 4 * std::max(0.0, muSunAt(leg.length))));
+        add(transmittance * groundAlbedo, lightAt(0, leg.length, 4 * std::max(0.0, (upSun + leg.length * alongSun) / radius)));
     }
     choice.possible = plain > 0;
     choice.plain = plain;
     if (!choice.possible)
         return;
-    const bool follow = guided > 0;
-    const double share = follow ? plainShare : 1.0;
+    const double follow = guided > 0 ? wanted.guided : 0;
     double sum = 0;
     for (std::size_t i = 0; i < choice.weight.size(); ++i) {
-        const double density = share / plain + (follow ? (1 - share) * choice.weight[i] / guided : 0);
+        const double density = (1 - follow) / plain + (follow > 0 ? follow * choice.weight[i] / guided : 0);
         sum += choice.cumulative[i] * density;
         choice.cumulative[i] = sum;
         choice.weight[i] = 1 / density;
@@ -179,13 +185,13 @@ Vec PathTracer::nextDirection(const Place& place, Vec direction, int order, doub
         return direction;
     }
     const Vec sun = scene_.sun.centre();
-    const Glow::View view = weight < heavy ? glow_.viewFrom(place, sun) : Glow::View();
+    const Glow::View view = glow_->viewFrom(place, sun);
     const double forward = 4 * pi * air_.scatteredAt(local_, 0) / local_.bright;
-    const double aimed = forward > peaked ? aimedShare : 0, guided = view.map ? glowShare(forward, order) : 0;
+    const double aimed = forward > peaked ? aimedShare : 0, guided = view.map ? glowShare(forward, order) * trust(weight) : 0;
     // What is left of u1 after the choice is as even as it was.
     Vec next;
     if (u1 < guided) {
-        next = glow_.direction(view, u1 / guided, u2);
+        next = glow_->direction(view, u1 / guided, u2);
         weight *= local_.bright / local_.extinction;
     } else {
         next = scatteredDirection(air_, aimed > 0 && random.uniform() * (1 - guided) < aimed ? sun : direction, local_,
@@ -199,7 +205,7 @@ Vec PathTracer::nextDirection(const Place& place, Vec direction, int order, doub
     if (aimed > 0)
         likely += aimed * air_.scatteredAt(local_, angleBetween(next, sun));
     if (guided > 0)
-        likely += guided * glow_.density(view, next) * local_.bright;
+        likely += guided * glow_->density(view, next) * local_.bright;
     weight *= scattered / likely;
     return next;
 }
@@ -235,7 +241,7 @@ double PathTracer::path(Random& random, const Decisions& decisions)
 
         const Ray ray = rayFrom(radius, place, direction);
         air_.profile().trace(ray, leg_);
-        prepare(place, direction, ray, leg_, air_.groundAlbedo(), weight < heavy ? wantedAt(order + 1) : Wanted(), choice_);
+        prepare(place, direction, ray, leg_, air_.groundAlbedo(), wantedAt(order + 1, weight), choice_);
         if (!choice_.possible)
             return radiance;
         onGround = advance(place, direction, ray, leg_, choice_, order == 1 ? decisions[3] : random.uniform(), weight);

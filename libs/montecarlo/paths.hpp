@@ -27,8 +27,8 @@ Vec scatteredDirection(const Air& air, Vec direction, const Local& local, double
 class PathTracer
 {
 public:
-    /// \param glow  of the air, or of the scene's eclipse; must live as long as this
-    PathTracer(const Air& air, const Scene& scene, Orders orders, const Glow& glow);
+    /// \param glow  of the air, or of the scene's eclipse; must live as long as this. None is needed where paths end with their first event
+    PathTracer(const Air& air, const Scene& scene, Orders orders, const Glow* glow);
 
     /// Mean of a batch of paths, 1/sr. The first decisions of its paths are spread evenly, from a random start.
     double batchMean(Random& random, int paths);
@@ -47,8 +47,9 @@ private:
     /// Which light the event at the end of a leg may pass on: it goes where there is some.
     struct Wanted {
         bool direct = false, scattered = false;
+        double guided = 0; ///< share of events that go there; the others follow optical depth alone
     };
-    Wanted wantedAt(int order) const { return {order >= orders_.first, order != orders_.last}; }
+    Wanted wantedAt(int order, double weight) const;
     void prepare(const Place& place, Vec direction, const Ray& ray, const Leg& leg, double groundAlbedo, Wanted wanted,
                  Choice& choice) const;
     /// Moves to the next event; returns whether it is on the ground. Multiplies `weight`.
@@ -66,7 +67,7 @@ private:
     const Air& air_;
     Scene scene_;
     Orders orders_;
-    const Glow& glow_;
+    const Glow* glow_;
     Ray firstRay_;
     Leg firstLeg_, leg_;
     Choice firstChoice_, choice_;

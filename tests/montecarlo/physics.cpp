@@ -19,7 +19,7 @@ namespace {
 
 constexpr double degree = pi / 180;
 
-Settings fixed(std::int64_t paths, int orders = 0) { return {.orders = orders, .relativeError = 0, .maxPaths = paths, .seed = 7}; }
+Settings fixed(std::int64_t paths, int orders = 0) { return {.orders = orders, .relativeError = 0, .maxPaths = paths, .seed = 8}; }
 
 /// Camera on top of the flat layer looking down at cosine mu from the nadir, the Sun at cosine mu0 from the zenith.
 Query fromAbove(double mu, double mu0, double azimuth = 0.3)
@@ -169,7 +169,7 @@ TEST_CASE("order 1 by random paths is order 1 by quadrature")
         const Query query{
             .altitude = 2000, .sunZenithAngle = sza * degree, .viewZenithAngle = 80 * degree, .relativeAzimuth = 0.2, .wavelength = 2};
         const double single = reference.radiance(query, fixed(2, 1)).single;
-        const Result paths = reference.singleByPaths(query, fixed(65536));
+        const Result paths = reference.singleByPaths(query, fixed(1 << 17));
         INFO("sun zenith angle " << sza << ": " << paths.multiple / single << " +- " << paths.multipleStderr / single);
         CHECK(std::abs(paths.multiple - single) < 3 * paths.multipleStderr);
         CHECK(paths.multipleStderr < 0.003 * single);
@@ -244,7 +244,7 @@ TEST_CASE("the result depends on the seed, not on the number of threads")
     const Result three = reference.radiance(query, settings);
     CHECK(one.multiple == three.multiple);
     CHECK(one.multipleStderr == three.multipleStderr);
-    settings.seed = 8;
+    settings.seed = 9;
     CHECK(reference.radiance(query, settings).multiple != one.multiple);
 }
 
