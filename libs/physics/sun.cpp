@@ -1,11 +1,13 @@
 #include "physics/sun.hpp"
 #include "base/angles.hpp"
 #include "base/parallel.hpp"
+#include "physics/limb.hpp"
 #include "physics/quadrature.hpp"
 #include "physics/ray.hpp"
 #include "physics/table_axes.hpp"
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace sky::physics {
 
@@ -79,6 +81,23 @@ std::vector<double> tableAltitudes(const Profile& profile, const Optics& optics,
     return levels;
 }
 
+/// Optical depths of rays up to some height above a horizon, closer than elevations of the table.
+///   depthsAt  (elevation above the horizon, [wavelength])
+template<class DepthsAt>
+LimbDepths limbDepths(double highest, double scale, double step, const DepthsAt& depthsAt, int wavelengths)
+{
+    constexpr double closer = 4;
+    constexpr int least = 8;
+    const double length = axisLength(scale, highest);
+    const int rays = std::max(least, static_cast<int>(closer * length / step)) + 1;
+    std::vector<double> elevations(rays), depths(size_t(rays) * wavelengths);
+    for (int i = 0; i < rays; ++i) {
+        elevations[i] = scale * std::sinh(length * i / (rays - 1));
+        depthsAt(elevations[i], &depths[size_t(i) * wavelengths]);
+    }
+    return {std::move(elevations), std::move(depths)};
+}
+
 } // namespace
 
 SunTable::SunTable(const Profile& profile, const Optics& optics, const double sunAngularRadius, const int altitudeCount,
@@ -90,48 +109,51 @@ SunTable::SunTable(const Profile& profile, const Optics& optics, const double su
 {
     for (const double h : altitudes_)
         measures_.push_back(horizonDistance(planet_, h));
-    const auto disc = gaussLegendre(6);
-    const auto fillRow = [&](size_t row, RayTracer& tracer) {
+    const auto depthsOf = [&](RayTracer& tracer, double altitude, double elevation, double* result) {
         std::vector<double> columns(optics.species);
+        tracer.columns(altitude, std::sin(std::min(pi / 2, elevation)), columns.data(), opaque);
+        for (int w = 0; w < wavelengths_; ++w) {
+            double tau = 0;
+            for (int s = 0; s < optics.species; ++s)
+                tau += columns[s] * optics.extinction[s * wavelengths_ + w];
+            result[w] = std::min(tau, opaque);
+        }
+    };
+    // Near the horizon the transmittance changes by factors over the disc, higher up it is linear: two points with the disc's second moment (a quarter
+    // of the radius squared) serve, and further up the centre alone.
+    const double fine = 3 * sunRadius_, step = axisLength(scale_, pi / 2) / (elevations_ - 1);
+    const auto fillRow = [&](size_t row, RayTracer& tracer) {
         const bool onGround = row == altitudes_.size();
         const double h = onGround ? 0 : altitudes_[row], horizon = horizonElevation(planet_, h);
         const double range = pi / 2 - horizon + sunRadius_;
+        std::optional<LimbDepths> limb;
+        if (sunRadius_ > 0)
+            limb = limbDepths(
+                fine + sunRadius_, scale_, step,
+                [&](double above, double* result) {
+                    base::stopIfAsked(stop);
+                    depthsOf(tracer, h, horizon + above, result);
+                },
+                wavelengths_);
+        std::vector<double> lower(wavelengths_);
         for (int k = 0; k < elevations_; ++k) {
             base::stopIfAsked(stop);
             const double x = scale_ * std::sinh(axisLength(scale_, range) * k / (elevations_ - 1));
-            const double above = x - sunRadius_; // of the Sun's centre above the horizon
+            const double above = x - sunRadius_, elevation = above + horizon; // of the Sun's centre
             double* result = &depth_[(row * elevations_ + k) * wavelengths_];
-            // Across the disc the transmittance is exponential near the horizon, linear high above it: from every point of
-            // a fine rule to two points with the same second moment (a quarter of the radius squared) to the centre alone.
-            const double elevation = above + horizon;
-            const bool fine = above < 3 * sunRadius_, centre = sunRadius_ == 0 || (!fine && elevation > 0.15);
-            const size_t points = fine ? disc.nodes.size() : centre ? 1 : 2;
-            std::vector<double> mean(wavelengths_, 0.);
-            double weights = 0;
-            const double lowest = std::acos(std::clamp(-above / std::max(sunRadius_, 1e-30), -1., 1.));
-            for (size_t q = 0; q < points; ++q) {
-                // e = above + radius cos(t) takes the root out of the chord's length: dA ~ sin^2 t dt.
-                const double t = 0.5 * lowest * (1 + disc.nodes[q]);
-                const double offset = fine ? std::cos(t) : centre ? 0. : q == 0 ? 0.5 : -0.5;
-                const double e = std::max(0., above + sunRadius_ * offset);
-                const double sine = std::sin(std::min(pi / 2, e + horizon));
-                const double weight =
-                    (fine ? disc.weights[q] * std::max(std::sin(t) * std::sin(t), 1e-12) : 1) * (onGround ? std::max(sine, 1e-12) : 1);
-                tracer.columns(h, sine, columns.data(), opaque);
-                for (int w = 0; w < wavelengths_; ++w) {
-                    double tau = 0;
-                    for (int s = 0; s < optics.species; ++s)
-                        tau += columns[s] * optics.extinction[s * wavelengths_ + w];
-                    tau = std::min(tau, opaque);
-                    // A sum of exponentials without underflow needs a common offset: the first ray's depth.
-                    if (q == 0)
-                        result[w] = tau;
-                    mean[w] += weight * std::exp(result[w] - tau);
-                }
-                weights += weight;
+            if (limb && above < fine) {
+                limb->meanDepth(x, sunRadius_, onGround, result);
+                continue;
             }
+            const bool centre = sunRadius_ == 0 || elevation > 0.15;
+            const double offset = centre ? 0 : 0.5 * sunRadius_;
+            depthsOf(tracer, h, elevation + offset, result);
+            if (centre)
+                continue;
+            depthsOf(tracer, h, elevation - offset, lower.data());
+            const double high = onGround ? std::sin(elevation + offset) : 1, low = onGround ? std::sin(elevation - offset) : 1;
             for (int w = 0; w < wavelengths_; ++w)
-                result[w] = std::max(0., result[w] - std::log(mean[w] / weights));
+                result[w] = std::max(0., result[w] - std::log((high + low * std::exp(result[w] - lower[w])) / (high + low)));
         }
     };
     base::parallel([&](int thread, int threads) {

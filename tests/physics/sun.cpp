@@ -131,6 +131,21 @@ TEST_CASE("direct sunlight: a shell of some metres, where the Sun goes out withi
         }
 }
 
+TEST_CASE("direct sunlight: behind a shell so thin that the Sun's light goes out over a tenth of its disc")
+{
+    // 500 m of fog and 500 m of nothing: the horizon at the top is 0.00056 rad below the ground's.
+    auto medium = sky::test::withDensity(sky::test::layer(1, 1, 0, sky::test::isotropicPhase), {0, 500, 500.01, 1000}, {1, 1, 0, 0});
+    medium.sunAngularRadius = 0.00465;
+    const Air air(std::move(medium));
+    for (const double altitude : {500.01, 900.})
+        for (const double above : {-0.5, 0., 0.3, 0.8, 1.1, 2.}) {
+            INFO(altitude << " m, centre of the disc " << above << " radii above the horizon");
+            const double elevation = above * 0.00465 + horizonElevation(air.profile.planet(), altitude);
+            CHECK(air.tabulated(altitude, elevation, 0) ==
+                  Approx(air.brute(altitude, elevation, 0)).epsilon(0.01)); // between altitudes of the table
+        }
+}
+
 TEST_CASE("direct sunlight: none before the first edge, the whole disc after the last, never more than came in")
 {
     const Air& air = earth();
