@@ -26,12 +26,6 @@ void spread(int count, Work&& work)
     });
 }
 
-/// How well the tail of the series is known once it is taken as geometric, relative: tests/eclipse holds all of it to 1 %.
-constexpr double tailError = 0.05;
-
-/// What all later events will add, lane by lane: a geometric series from the last two.
-float tailRatio(float last, float before) { return before > 0 ? std::clamp(last / before, 0.f, 0.95f) : 0.f; }
-
 } // namespace
 
 /// Memory of one task.
@@ -229,36 +223,25 @@ void ScatteredField::State::add(const Light& light)
         total.irradiance[i] += light.irradiance[i];
 }
 
-bool ScatteredField::State::close()
+bool ScatteredField::State::known()
+{
+    if (!convergence)
+        convergence.emplace(*air, frame.cameraAltitude());
+    return convergence->add(look(last, convergence->views(), convergence->azimuths())) <= orders.tolerance || events >= mostEvents;
+}
+
+void ScatteredField::State::close()
 {
     // The tail has the shape of the last event in all harmonics.
-    const std::size_t count = total.moments.size() / harmonics();
-    Lanes scales(count, Lane{});
-    Lane brightest{};
-    for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t i = 0; i < total.moments.size(); i += harmonics())
         for (int w = 0; w < lanes; ++w) {
-            const std::size_t at = i * harmonics();
-            const float ratio = tailRatio(last.moments[at][w], before.moments[at][w]);
-            scales[i][w] = ratio / (1 - ratio);
-            brightest[w] = std::max(brightest[w], total.moments[at][w]);
+            const float tail = tailOf(last.moments[i][w], before.moments[i][w]);
+            for (std::size_t k = i; k < i + harmonics(); ++k)
+                total.moments[k][w] += tail * last.moments[k][w];
         }
-    double largest = 0; // share of the tail, where there is light
-    for (std::size_t i = 0; i < count; ++i)
-        for (int w = 0; w < lanes; ++w) {
-            const float sum = total.moments[i * harmonics()][w], tail = scales[i][w] * last.moments[i * harmonics()][w];
-            if (sum > 1e-7f * brightest[w])
-                largest = std::max(largest, static_cast<double>(tail / (sum + tail)));
-        }
-    if (largest * tailError > orders.tolerance && events < mostEvents)
-        return false;
-    for (std::size_t i = 0; i < total.moments.size(); ++i)
-        total.moments[i] += scales[i / harmonics()] * last.moments[i];
     for (std::size_t i = 0; i < total.irradiance.size(); ++i)
-        for (int w = 0; w < lanes; ++w) {
-            const float ratio = tailRatio(last.irradiance[i][w], before.irradiance[i][w]);
-            total.irradiance[i][w] += ratio / (1 - ratio) * last.irradiance[i][w];
-        }
-    return true;
+        for (int w = 0; w < lanes; ++w)
+            total.irradiance[i][w] += tailOf(last.irradiance[i][w], before.irradiance[i][w]) * last.irradiance[i][w];
 }
 
 ScatteredField::ScatteredField(std::shared_ptr<const AirRays> rays, const physics::SunTable& sun, const physics::EclipseBodies& bodies,
@@ -285,10 +268,9 @@ bool ScatteredField::step()
     s.last = std::move(light);
     ++s.events;
     s.add(s.last);
-    if (!s.orders.all)
-        s.done = s.events >= s.orders.orders - 1;
-    else
-        s.done = s.events >= 2 && s.close();
+    s.done = s.orders.all ? s.known() : s.events >= s.orders.orders - 1;
+    if (s.done && s.orders.all)
+        s.close();
     return s.done;
 }
 

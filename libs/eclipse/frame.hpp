@@ -25,6 +25,8 @@ public:
 
     /// The observer's distance from the mirror plane along the ground, m, >= 0.
     double observer() const { return observer_; }
+    /// Of the observer, m.
+    double cameraAltitude() const { return cameraRadius_ - planet_.radius; }
     /// Along the plane, from the observer to where the shadow's axis enters the air (or passes nearest to the planet), m.
     double shadow() const { return shadow_; }
     /// Sine of the Sun's elevation there, 0 .. 1.

@@ -68,6 +68,31 @@ std::vector<double> sunlightAltitudes(const physics::Planet& planet, const Level
     return result;
 }
 
+/// Leaves out nodes from which next to no light comes through, in haze and clouds most: even where an eclipse makes the rest ten thousand times darker
+/// they tell nothing.
+physics::RayNodes withoutHidden(const physics::RayNodes& ray, std::size_t scatterers, std::size_t wavelengths)
+{
+    constexpr double hidden = 1e-9; // of the largest weight of a scatterer and a wavelength
+    const std::size_t row = scatterers * wavelengths;
+    std::vector<double> largest(row, 0.);
+    for (std::size_t i = 0; i < ray.weights.size(); ++i)
+        largest[i % row] = std::max(largest[i % row], ray.weights[i]);
+    physics::RayNodes result = ray;
+    result.nodes.clear();
+    result.weights.clear();
+    for (std::size_t k = 0; k < ray.nodes.size(); ++k) {
+        const double* weights = &ray.weights[k * row];
+        bool seen = false;
+        for (std::size_t i = 0; i < row; ++i)
+            seen = seen || weights[i] > hidden * largest[i];
+        if (!seen)
+            continue;
+        result.nodes.push_back(ray.nodes[k]);
+        result.weights.insert(result.weights.end(), weights, weights + row);
+    }
+    return result;
+}
+
 FieldSettings checked(FieldSettings s)
 {
     if (s.azimuths < 4 || s.azimuths % 4 != 0)
@@ -161,15 +186,19 @@ GridRay AirRays::trace(physics::RayTracer& tracer, const double altitude, const 
     GridRay ray{static_cast<float>(mu), static_cast<float>(weight), hitsGround, {}, {}, {}, {}, 0, {}, {}};
     const auto distanceOf = [&](const physics::RayNodes::Node& n) { return groundDistance(radius, n.sunScale, n.nuScale, mu); };
 
-    const auto scattered = tracer.trace(altitude, mu, settings.nodes, hitsGround);
+    const auto seen = [&](int nodes) {
+        return withoutHidden(tracer.trace(altitude, mu, nodes, hitsGround), static_cast<std::size_t>(scatterers),
+                             static_cast<std::size_t>(wavelengths));
+    };
+    const auto scattered = seen(settings.nodes);
     for (const auto& node : scattered.nodes)
         ray.scattered.push_back(levels.place(node.altitude, distanceOf(node)));
     ray.coefficients = coefficientsOf(scattered);
 
-    const auto direct = tracer.trace(altitude, mu, settings.directNodes, hitsGround);
+    const auto direct = seen(settings.directNodes);
     for (const auto& node : direct.nodes)
         ray.direct.push_back(sunlightLevels.place(node.altitude, distanceOf(node)));
-    const std::size_t rows = static_cast<std::size_t>(settings.directNodes * scatterers);
+    const std::size_t rows = direct.nodes.size() * static_cast<std::size_t>(scatterers);
     ray.directWeights.resize(static_cast<std::size_t>(groups) * rows);
     for (int g = 0; g < groups; ++g)
         for (std::size_t i = 0; i < rows; ++i) {

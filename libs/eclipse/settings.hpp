@@ -27,9 +27,9 @@ constexpr int mostDegree = 6;
 
 /// Events of scattering or reflection that are counted.
 struct Orders {
-    int orders = 4;          ///< of the light that is seen: the field has one event less. 2: light of second order alone
-    bool all = false;        ///< go on until closing the series as a geometric one changes nothing above the tolerance
-    double tolerance = 5e-3; ///< relative; with `all`
+    int orders = 4;   ///< of the light that is seen: the field has one event less. 2: light of second order alone
+    bool all = false; ///< go on until later events no longer change quotients by the tolerance, and close the series as a geometric one
+    double tolerance = 5e-3; ///< relative, rms over some directions of view; with `all`
 };
 
 } // namespace sky::eclipse

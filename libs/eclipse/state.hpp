@@ -1,6 +1,8 @@
 #pragma once
+#include "eclipse/convergence.hpp"
 #include "eclipse/kernels.hpp"
 #include "eclipse/rays.hpp"
+#include <optional>
 
 namespace sky::eclipse {
 
@@ -25,6 +27,7 @@ struct ScatteredField::State {
     Lanes sunlight;            ///< [group][level of sunlight][point of fine]
     Lanes sunnyGround;         ///< [group][point of fine], irradiance
     Light last, before, total;
+    std::optional<Convergence> convergence; ///< with all orders
     int events = 0;
     bool lit = false, done = false;
 
@@ -42,7 +45,9 @@ struct ScatteredField::State {
     void directRay(const GridRay& ray, int group, struct Scratch& scratch) const;
     void scatteredRay(const GridRay& ray, int group, struct Scratch& scratch) const;
     void add(const Light& light);
-    bool close(); ///< adds the tail of the series, if that is known well enough
+    ViewLight look(const Light& light, const TracedViews& views, const std::vector<double>& azimuths) const;
+    bool known(); ///< whether later events no longer change quotients
+    void close(); ///< adds the tail of the series
 };
 
 } // namespace sky::eclipse

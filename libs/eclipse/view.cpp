@@ -143,54 +143,57 @@ ViewLight ScatteredField::view(const std::vector<ViewRay>& views, const std::vec
 
 ViewLight ScatteredField::view(const TracedViews& views, const std::vector<double>& azimuths) const
 {
-    const State& s = *state_;
-    const AirRays& air = *s.air;
-    const int wavelengths = air.wavelengths, degree = air.degree, count = static_cast<int>(azimuths.size());
+    return state_->look(state_->total, views, azimuths);
+}
+
+ViewLight ScatteredField::State::look(const Light& light, const TracedViews& views, const std::vector<double>& azimuths) const
+{
+    const int wavelengths = air->wavelengths, degree = air->degree, count = static_cast<int>(azimuths.size());
     const std::size_t size = views.rays.size() * azimuths.size() * static_cast<std::size_t>(wavelengths);
     ViewLight result{
         count, wavelengths, std::vector<float>(size), std::vector<float>(size), std::vector<float>(size), std::vector<float>(size)};
-    if (s.total.moments.empty())
+    if (light.moments.empty())
         return result;
 
     // Directions here, and their waves.
     std::vector<float> turned, cosines, sines; // [azimuth], [azimuth][m]
     for (const double azimuth : azimuths) {
-        const double here = s.frame.azimuthOf(azimuth);
+        const double here = frame.azimuthOf(azimuth);
         turned.push_back(static_cast<float>(here));
         for (int m = 0; m <= degree; ++m) {
             cosines.push_back(static_cast<float>(std::cos(m * here)));
             sines.push_back(static_cast<float>(std::sin(m * here)));
         }
     }
-    const auto store = [&](const Lane& light, std::size_t ray, int azimuth, int group, std::vector<float>& eclipsed,
+    const auto store = [&](const Lane& lane, std::size_t ray, int azimuth, int group, std::vector<float>& eclipsed,
                            std::vector<float>& uneclipsed) {
         for (int i = 0; i < waves && group * waves + i < wavelengths; ++i) {
             const auto at = (ray * azimuths.size() + static_cast<std::size_t>(azimuth)) * static_cast<std::size_t>(wavelengths) +
                             static_cast<std::size_t>(group * waves + i);
-            eclipsed[at] = std::max(0.f, light[i]);
-            uneclipsed[at] = std::max(0.f, light[waves + i]);
+            eclipsed[at] = std::max(0.f, lane[i]);
+            uneclipsed[at] = std::max(0.f, lane[waves + i]);
         }
     };
-    const float observer = static_cast<float>(s.frame.observer());
+    const float observer = static_cast<float>(frame.observer());
     const int terms = physics::harmonicCount(degree);
     base::parallel([&](int thread, int threads) {
-        Fold fold(degree, s.grid.points());
+        Fold fold(degree, grid.points());
         Lanes sums;
         std::vector<Corners> corners;
         const auto standAt = [&](float distance) { // the points around a place on the ray, in every azimuth
             corners.clear();
             for (const float azimuth : turned)
-                corners.emplace_back(s.grid, distance * std::cos(azimuth), observer + distance * std::sin(azimuth));
+                corners.emplace_back(grid, distance * std::cos(azimuth), observer + distance * std::sin(azimuth));
         };
         for (std::size_t v = static_cast<std::size_t>(thread); v < views.rays.size(); v += static_cast<std::size_t>(threads)) {
             const auto& ray = views.rays[v];
             const int nodes = static_cast<int>(ray.places.size());
-            for (int g = 0; g < air.groups; ++g) {
+            for (int g = 0; g < air->groups; ++g) {
                 sums.assign(azimuths.size(), Lane{});
                 for (int k = 0; k < nodes; ++k) {
                     const Place& place = ray.places[static_cast<std::size_t>(k)];
                     standAt(place.distance);
-                    fold.begin(s.momentsAt(s.total, g, place.level), s.momentsAt(s.total, g, place.level + 1), place.share,
+                    fold.begin(momentsAt(light, g, place.level), momentsAt(light, g, place.level + 1), place.share,
                                &ray.coefficients[static_cast<std::size_t>((g * nodes + k) * terms)]);
                     for (std::size_t a = 0; a < azimuths.size(); ++a) {
                         const std::size_t first = a * (static_cast<std::size_t>(degree) + 1);
@@ -205,7 +208,7 @@ ViewLight ScatteredField::view(const TracedViews& views, const std::vector<doubl
                 if (!ray.hitsGround)
                     continue;
                 standAt(ray.groundDistance);
-                const Lane* irradiance = &s.total.irradiance[static_cast<std::size_t>(g) * s.points()];
+                const Lane* irradiance = &light.irradiance[static_cast<std::size_t>(g) * points()];
                 for (int a = 0; a < count; ++a) {
                     Lane sum{};
                     for (int c = 0; c < 16; ++c)

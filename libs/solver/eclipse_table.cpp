@@ -1,11 +1,15 @@
 #include "solver/eclipse_table.hpp"
 #include "eclipse/field.hpp"
+#include "eclipse/rays.hpp"
 #include "model/eclipse_table.hpp"
 #include "physics/stencil.hpp"
 #include "physics/table_axes.hpp"
+#include "solver/field_work.hpp"
+#include "solver/quality.hpp"
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace sky::solver {
 
@@ -20,6 +24,13 @@ constexpr int solvedSuns = 16;
 constexpr float leastRatio = 1e-9f;
 /// On the ground no air is seen below the horizon. What is seen from this altitude, m, is what quotients in between go towards.
 constexpr double leastAltitude = 1;
+/// Seconds for one field of three events and eight wavelengths, on two cores, before the medium is known; for one visit of a ray's node by eight
+/// wavelengths in one azimuth over one point of the grid.
+constexpr double usualStateSeconds = 0.09, secondsPerVisit = 5.5e-9;
+/// Levels of clear air; a visit takes the longer the more there are, since fewer of them stay in the cache.
+constexpr double fewLevels = 13;
+/// Events until quotients are known, of the events until the ordinary light is: the shadow is filled from far away.
+constexpr double eventsPerEvent = 1.3;
 /// Share of the stage's time that goes into quotients, for the progress bar.
 constexpr double solving = 0.9;
 
@@ -60,6 +71,16 @@ eclipse::FieldSettings tableSettings(const std::string& quality)
         s.viewNodes = finest ? 40 : 24;
     }
     return s;
+}
+
+/// The altitudes that are solved around a layer. The nodes are even in the measure of altitudeNodes, so the place among them is even too.
+physics::Stencil layerStencil(int layer, int layers, int solved)
+{
+    auto stencil = physics::uniformStencil(double(layer) * (solved - 1) / std::max(1, layers - 1), solved);
+    for (int i = 0; i < 4; ++i)
+        if (stencil.weight[i] == 0)
+            stencil.index[i] = stencil.index[1];
+    return stencil;
 }
 
 int solvedCount(const atmo::SizeScattering& size) { return std::min(size.altitude, solvedAltitudes); }
@@ -192,13 +213,34 @@ int eclipseStates(const atmo::Description& d, const Options& options)
 {
     const auto size = eclipseTableSize(d);
     const int solved = solvedCount(size), suns = solvedSunCount(size);
-    if (!options.altitudeLayers)
-        return solved * suns;
-    // Stencils of the layers asked for reach one solved altitude farther on both sides.
-    const double step = double(solved - 1) / std::max(1, size.altitude - 1);
-    const int first = std::max(0, static_cast<int>(options.altitudeLayers->first * step) - 1);
-    const int last = std::min(solved - 1, static_cast<int>(options.altitudeLayers->second * step) + 2);
-    return (last - first + 1) * suns;
+    std::set<int> altitudes; // those that the layers asked for look at
+    const auto [first, last] = options.altitudeLayers.value_or(std::pair{0, size.altitude - 1});
+    for (int layer = first; layer <= last; ++layer) {
+        const auto stencil = layerStencil(layer, size.altitude, solved);
+        altitudes.insert(stencil.index.begin(), stencil.index.end());
+    }
+    return static_cast<int>(altitudes.size()) * suns;
+}
+
+double eclipseSeconds(const atmo::Description& d, const Options& options, const physics::Medium* const medium)
+{
+    const int states = eclipseStates(d, options);
+    if (!medium)
+        return states * usualStateSeconds * std::ceil(d.wavelengths.count / 8.) * relativeWork(options.quality);
+    const auto settings = tableSettings(options.quality);
+    const physics::Profile profile(*medium);
+    const auto field = qualityFor(options.quality, *medium, orderTolerance(options)).moments;
+    const auto optics = physics::makeOptics(*medium, field.degree, field.truncatePeaks);
+    const eclipse::AirRays air(*medium, profile, optics, settings);
+    double direct = 0, scattered = 0; // visits of a ray's node by light of one azimuth
+    for (const auto& level : air.rays)
+        for (const auto& ray : level) {
+            direct += settings.azimuths * static_cast<double>(ray.direct.size());
+            scattered += settings.azimuths * static_cast<double>(ray.scattered.size());
+        }
+    const double events = d.allScatteringOrders ? eventsPerEvent * eventsOf(*medium) : d.scatteringOrders - 1.;
+    return states * secondsPerVisit * air.groups * settings.along * settings.across *
+           (2 * air.scatterers * direct + (events - 1) * scattered) * air.levels.count() / fewLevels;
 }
 
 void bakeEclipsed(const gl::Api& api, const BakeJob& ordinary, const physics::Moments& field, model::ModelWriter& writer,
@@ -235,12 +277,11 @@ void bakeEclipsed(const gl::Api& api, const BakeJob& ordinary, const physics::Mo
     gatherMultipleScattering(
         api, job, field, false, [&](double share) { advance(fraction + (1 - solving) * share / double(altitudes.size())); },
         [&](int layer, const std::vector<float>& light) {
-            // The nodes are even in the measure of altitudeNodes, so the place among them is even too.
-            const int whole = job.size.altitude, first = job.options.altitudeLayers ? job.options.altitudeLayers->first : 0;
-            const auto stencil = physics::uniformStencil(double(first + layer) * (solved - 1) / std::max(1, whole - 1), solved);
+            const auto stencil =
+                layerStencil(layer + (job.options.altitudeLayers ? job.options.altitudeLayers->first : 0), job.size.altitude, solved);
             std::array<const float*, 4> near;
             for (int i = 0; i < 4; ++i)
-                near[i] = ratiosAt(stencil.weight[i] != 0 ? stencil.index[i] : stencil.index[1]).data();
+                near[i] = ratiosAt(stencil.index[i]).data();
             known.erase(known.begin(), known.lower_bound(stencil.index[0]));
             const std::size_t count = light.size() / stride;
             texels.assign(count * channels, 0.f);

@@ -14,6 +14,10 @@ atmo::SizeScattering eclipseTableSize(const atmo::Description& description);
 /// Number of places of Sun and camera for which the field of an eclipse is solved.
 int eclipseStates(const atmo::Description& description, const Options& options);
 
+/// Seconds that the table takes on two cores, roughly.
+///   medium  null as long as it is not known: hazy and cloudy air take more levels and events
+double eclipseSeconds(const atmo::Description& description, const Options& options, const physics::Medium* medium);
+
 /// Light of two orders and more while the Moon stands before the Sun, both concentric as the camera sees them: the table
 /// "eclipsed-double-scattering", as many orders as the moments have. The quotient of eclipsed and uneclipsed light (sky::eclipse) varies
 /// slowly with the altitude: it is computed at a few, and multiplies the ordinary light of every layer.

@@ -9,10 +9,15 @@ namespace sky::solver {
 
 namespace {
 
-/// Events that all orders take: about as many as the optical depth makes.
-int eventsOf(const Air air)
+// Seconds on two cores of a software driver, by `earth`, `hazy-city` and `cloud`.
+constexpr double secondsPerSunVisit = 2.4e-8;  // one set of wavelengths of sunlight at a node
+constexpr double secondsPerTermVisit = 2.4e-9; // one set of an azimuthal or spherical term of later light
+
+} // namespace
+
+int eventsOf(const physics::Medium& medium)
 {
-    switch (air) {
+    switch (airOf(medium)) {
     case Air::Clear:
     case Air::Dusty: return 5;
     case Air::Dense: return 7;
@@ -21,12 +26,6 @@ int eventsOf(const Air air)
     }
     return 0;
 }
-
-// Seconds on two cores of a software driver, by `earth`, `hazy-city` and `cloud`.
-constexpr double secondsPerSunVisit = 2.4e-8;  // one set of wavelengths of sunlight at a node
-constexpr double secondsPerTermVisit = 2.4e-9; // one set of an azimuthal or spherical term of later light
-
-} // namespace
 
 FieldWork fieldWorkOf(const physics::Medium& medium, const Options& options, const int orders)
 {
@@ -40,7 +39,7 @@ FieldWork fieldWorkOf(const physics::Medium& medium, const Options& options, con
     const double directions = settings.groundDirections + settings.limbDirections + settings.skyDirections, rays = levels * directions;
     const double harmonics = physics::harmonicCount(settings.degree);
     const double lightAzimuths = settings.lightAzimuths > 0 ? std::min(settings.lightAzimuths, settings.azimuths) : settings.azimuths;
-    const int events = orders > 0 ? std::max(1, orders - 1) : eventsOf(airOf(medium));
+    const int events = orders > 0 ? std::max(1, orders - 1) : eventsOf(medium);
 
     FieldWork work{};
     work.seconds = 0.1 + secondsPerSunVisit * rays * suns * sets * lightAzimuths * settings.directNodes;

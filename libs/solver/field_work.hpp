@@ -13,6 +13,9 @@ struct FieldWork {
     double diskBytes; ///< of the moments
 };
 
+/// Events of light that all orders take, roughly: about as many as the optical depth makes.
+int eventsOf(const physics::Medium& medium);
+
 /// \param orders  of scattering; 0: all
 FieldWork fieldWorkOf(const physics::Medium& medium, const Options& options, int orders);
 

@@ -13,9 +13,6 @@ namespace {
 /// Visits of a ray's node per second for one set of four wavelengths, a rough guess for llvmpipe on two cores.
 constexpr double directVisits = 1.6e8, scatteredVisits = 8e7;
 
-/// Seconds for one field of an eclipse of three events and eight wavelengths, on two cores.
-constexpr double eclipseSeconds = 0.09;
-
 /// Bytes of the program with a driver in software; what a stage takes is beyond that.
 constexpr double process = 90e6;
 
@@ -81,7 +78,8 @@ Needs needsOf(const atmo::Description& d, const Options& options)
     return n;
 }
 
-Work workOf(const atmo::Description& d, const Options& options, const Needs& needs, const FieldWork* const field)
+Work workOf(const atmo::Description& d, const Options& options, const Needs& needs, const FieldWork* const field,
+            const physics::Medium* const medium)
 {
     Work w;
     const double sets = (d.wavelengths.count + 3) / 4, quality = relativeWork(options.quality);
@@ -100,7 +98,7 @@ Work workOf(const atmo::Description& d, const Options& options, const Needs& nee
     if (needs.multiple)
         w.multiple = points * 14 * quality / scatteredVisits;
     if (needs.eclipsed)
-        w.eclipsed = eclipseStates(d, options) * eclipseSeconds * std::ceil(d.wavelengths.count / 8.) * (1 + events) / 4 * quality;
+        w.eclipsed = eclipseSeconds(d, options, medium);
     if (needs.lightPollution)
         w.lightPollution =
             (0.08 + 5e-6 * d.lightPollutionSize.altitude * d.lightPollutionSize.zenithAngle) * sets * (options.saveLightPollution ? 8 : 1);
@@ -114,7 +112,7 @@ std::vector<PlanItem> plan(const atmo::Description& d, const Options& options, c
 {
     const Needs needs = needsOf(d, options);
     const auto known = needs.field && medium ? std::optional(fieldWorkOf(*medium, options, ordersOf(d))) : std::nullopt;
-    const Work work = workOf(d, options, needs, known ? &*known : nullptr);
+    const Work work = workOf(d, options, needs, known ? &*known : nullptr, medium);
     const double sets = (d.wavelengths.count + 3) / 4, points = texels(d.scatteringSize, options);
     const double bytes = options.texturePrecisionBits <= 11 ? 2 : 4, compressed = 0.7;
     const auto size = [](double value) { return static_cast<std::size_t>(value); };

@@ -26,8 +26,9 @@ struct Work {
                writing;
     }
 };
-/// \param field  as long as it is not known, the moments' time is a guess
-Work workOf(const atmo::Description& description, const Options& options, const Needs& needs, const FieldWork* field = nullptr);
+/// \param field, medium  as long as they are not known, the times of the moments and of the table of eclipses are guesses
+Work workOf(const atmo::Description& description, const Options& options, const Needs& needs, const FieldWork* field = nullptr,
+            const physics::Medium* medium = nullptr);
 
 /// Bytes of results that may be gathered at a time under --max-memory: a quarter of what the fixed needs leave, since results exist on the
 /// GPU, in its copy, where they go to, and while that is written. 0: no bound.

@@ -116,7 +116,7 @@ void solve(const atmo::Description& description, const Options& asked, gl::Headl
     std::optional<FieldWork> fieldWork;
     if (needs.field)
         fieldWork = fieldWorkOf(medium, options, description.allScatteringOrders ? 0 : description.scatteringOrders);
-    stages.reestimate(workOf(description, options, needs, fieldWork ? &*fieldWork : nullptr));
+    stages.reestimate(workOf(description, options, needs, fieldWork ? &*fieldWork : nullptr, &medium));
     model::Manifest manifest = describe(description, options, medium);
     manifest.lightPollutionRadiance = glow;
     manifest.warnings = warnings;

@@ -161,6 +161,17 @@ TEST_CASE("eclipse field: orders add up, and all of them end")
     const auto all = earth.solved(bodies, {0, true}).view(views, azimuths), many = earth.solved(bodies, {14}).view(views, azimuths);
     for (std::size_t i = 0; i < last.size(); ++i)
         REQUIRE(double(all.eclipsed[i]) == Approx(double(many.eclipsed[i])).epsilon(0.01)); // the closed series, within its tolerance
+    // They end once quotients are known, and fewer events do for a quotient than for the light.
+    const auto quick = earth.solved(bodies, {0, true}), slow = earth.solved(bodies, {0, true, 1e-5});
+    const auto known = quick.view(views, azimuths), truth = slow.view(views, azimuths);
+    double squares = 0;
+    for (int v = 0; v < int(views.size()); ++v)
+        for (int k = 0; k < truth.azimuths; ++k)
+            for (int w = 0; w < truth.wavelengths; ++w)
+                squares += std::pow(double(known.skyRatio(v, k, w) / truth.skyRatio(v, k, w) - 1), 2);
+    CHECK(std::sqrt(squares / double(truth.eclipsed.size())) < Orders().tolerance);
+    CHECK(quick.events() < slow.events());
+    CHECK(earth.solved(earth.bodies(0.7, 0.1), {0, true}).events() == 3); // without an eclipse there is nothing to wait for
     const auto single = earth.solved(bodies, {1}).view(views, azimuths);
     CHECK(*std::max_element(single.eclipsed.begin(), single.eclipsed.end()) == 0);
     CHECK(single.skyRatio(0, 0, 0) == 1);
