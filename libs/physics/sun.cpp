@@ -21,6 +21,9 @@ using base::pi;
 constexpr double rowOpticalDepth = 0.1, rowCurvature = 1e-3;
 constexpr int mostParts = 16;
 
+/// Vertical optical depth, at the clearest wavelength, under which altitudes are no closer: 1e-9 of sunlight gets there from the zenith.
+constexpr double dark = 20;
+
 /// Optical depth behind which nothing is followed: what is left could not be told from darkness in single precision.
 constexpr double opaque = 200;
 
@@ -35,8 +38,8 @@ double scaleFor(const Profile& profile, const Optics& optics, double sunRadius)
     return usualScale * std::min(1., (dipOfAir(profile, largestExtinctions(optics)) + 2 * sunRadius) / usualSunset);
 }
 
-/// Largest optical depth of the air between two altitudes, of all wavelengths.
-double opticalDepthBetween(const Profile& profile, const Optics& optics, double from, double to)
+/// Smallest and largest optical depth of the air between two altitudes, of all wavelengths.
+std::pair<double, double> opticalDepthBetween(const Profile& profile, const Optics& optics, double from, double to)
 {
     constexpr int points = 4;
     std::vector<double> n(optics.species), beta(optics.wavelengths, 0.);
@@ -47,7 +50,8 @@ double opticalDepthBetween(const Profile& profile, const Optics& optics, double 
             for (int w = 0; w < optics.wavelengths; ++w)
                 beta[w] += n[s] * optics.extinction[s * optics.wavelengths + w] / points;
     }
-    return *std::max_element(beta.begin(), beta.end()) * (to - from);
+    const auto [least, most] = std::minmax_element(beta.begin(), beta.end());
+    return {*least * (to - from), *most * (to - from)};
 }
 
 /// Levels for a table over altitude: evenly spread for a gentle atmosphere, both sides of every jump of the profile, and more where
@@ -67,17 +71,20 @@ std::vector<double> tableAltitudes(const Profile& profile, const Optics& optics,
         }
     std::sort(all.begin(), all.end());
     all.erase(std::unique(all.begin(), all.end()), all.end());
-    std::vector<double> levels{all.front()};
-    for (size_t k = 0; k + 1 < all.size(); ++k) {
+    std::vector<double> levels{all.back()};
+    double overhead = 0; // vertical optical depth
+    for (size_t k = all.size() - 1; k-- > 0;) {
         const double x0 = horizonDistance(p, all[k]), x1 = horizonDistance(p, all[k + 1]), middle = altitudeOfHorizon(p, 0.5 * (x0 + x1));
-        const double below = opticalDepthBetween(profile, optics, all[k], middle);
-        const double above = opticalDepthBetween(profile, optics, middle, all[k + 1]);
+        const auto [leastBelow, below] = opticalDepthBetween(profile, optics, all[k], middle);
+        const auto [leastAbove, above] = opticalDepthBetween(profile, optics, middle, all[k + 1]);
         const double wanted = std::max((below + above) / rowOpticalDepth, std::sqrt(0.5 * std::abs(below - above) / rowCurvature));
-        const int parts = std::clamp(static_cast<int>(std::min(wanted, 1e3)) + 1, 1, mostParts);
-        for (int i = 1; i < parts; ++i)
+        const int parts = overhead > dark ? 1 : std::clamp(static_cast<int>(std::min(wanted, 1e3)) + 1, 1, mostParts);
+        for (int i = parts - 1; i > 0; --i)
             levels.push_back(altitudeOfHorizon(p, x0 + (x1 - x0) * i / parts));
-        levels.push_back(all[k + 1]);
+        levels.push_back(all[k]);
+        overhead += leastBelow + leastAbove;
     }
+    std::reverse(levels.begin(), levels.end());
     return levels;
 }
 

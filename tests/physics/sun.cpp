@@ -131,6 +131,16 @@ TEST_CASE("direct sunlight: a shell of some metres, where the Sun goes out withi
         }
 }
 
+TEST_CASE("direct sunlight: of optical depth 1000 the table resolves what light gets into, and not what lies under it")
+{
+    const Air air(sky::test::layer(1000, 1, 0, sky::test::isotropicPhase)); // 1000 m
+    CHECK(air.sun.altitudes().size() < 56 + 16 * 4); // 20 of optical depth lie in one interval of the evenly spread ones
+    for (const double depth : {0.5, 2., 8.}) {
+        const double mu = 0.8; // within 2e-3: linear between altitudes
+        CHECK(air.tabulated(1000 - depth, std::asin(mu), 0) == Approx(std::exp(-depth / mu)).epsilon(2e-3));
+    }
+}
+
 TEST_CASE("direct sunlight: behind a shell so thin that the Sun's light goes out over a tenth of its disc")
 {
     // 500 m of fog and 500 m of nothing: the horizon at the top is 0.00056 rad below the ground's.
