@@ -241,19 +241,28 @@ void Aerial::growLight(int view, const Line& line, const float* shares)
             store(static_cast<int>(i) + 1, a, grown.back());
         }
         std::fill(grown.begin(), grown.end(), Texel{});
-        if (moments_ && scene_.layers.multiple) {
+        if (moments_ ? scene_.layers.multiple : !scene_.multiple.empty()) {
             std::vector<double> sum(wavelengths, 0.);
             physics::RayNodes one;
             for (std::size_t n = 0; n < multiple.nodes.size(); ++n) {
                 one.nodes.assign(1, multiple.nodes[n]);
                 one.weights.assign(&multiple.weights[n * stride], &multiple.weights[n * stride] + stride);
                 std::fill(part.begin(), part.end(), 0.);
-                evaluator.multipleAlong(one, *moments_, muSun, nu, part.data());
+                if (moments_)
+                    evaluator.multipleAlong(one, *moments_, muSun, nu, part.data());
+                else
+                    for (std::size_t i = 0; i < stride; ++i)
+                        part[i % wavelengths] += one.weights[i];
                 const float* left =
                     shares ? &shares[(n * static_cast<std::size_t>(columns()) + static_cast<std::size_t>(a)) * wavelengths] : nullptr;
                 for (std::size_t w = 0; w < wavelengths; ++w)
                     sum[w] += (left ? static_cast<double>(left[w]) : 1) * part[w];
                 grown[n + 1] = luminance(sum);
+            }
+            for (std::size_t c = 0; !moments_ && c < 4; ++c) {
+                const float scale = grown.back()[c] > faintest ? scene_.multiple.at(view, a)[c] / grown.back()[c] : 0;
+                for (Texel& texel : grown)
+                    texel[c] *= scale;
             }
         }
         Texel total = grown.back();

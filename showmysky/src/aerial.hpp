@@ -24,6 +24,8 @@ struct AerialScene {
     /// SkyView::whole at the nodes of these tables (Aerial::halfViews, `columns`): what light before the ground is a share of.
     ViewTable whole;
     bool glow = false; ///< some of `whole` isn't the Sun's light
+    /// Of `whole` what air scatters of higher orders, without the ground: needed where there are no moments that tell it.
+    ViewTable multiple{};
     struct Eclipse {
         double sunAzimuth = 0; ///< in the frame, from x to y
         /// What is left of the Sun's luminance at a node of a line of sight: EclipseSky::sunAt.
@@ -41,7 +43,7 @@ class Aerial
 public:
     static constexpr int halfViews = 16, azimuths = 9, distances = 32;
 
-    /// \param moments may be null: then light of higher orders grows as its air scatters
+    /// \param moments may be null: then light of higher orders grows as its air scatters and what an eclipse leaves there
     Aerial(const Atmosphere& atmosphere, const Phases& phases, const sky::physics::Moments* moments, const sky::physics::SunTable& sun);
 
     void set(AerialScene scene);

@@ -319,6 +319,17 @@ Progress Scene::eclipseStep()
     eclipse_->set(eclipseScene());
     if (!eclipse_->step())
         return {false, 0.85 + 0.15 * eclipse_->fractionDone(), "Following the shadow"};
+    if (usesEclipseTable(settings_) && eclipsed_.empty())
+        eclipsed_ = lookup_->eclipsed(settings_.altitude, std::cos(settings_.sun.zenithAngle),
+                                      atmosphere_->luminanceWeights(settings_.solarSpectrumFactors));
+    view_ = eclipsedView(ordinary_);
+    ready_ = true;
+    ++version_;
+    return {true, 1, {}};
+}
+
+SkyView Scene::eclipsedView(const OrdinarySky& sky) const
+{
     // The description asks for sizes of the half turn; no fewer than these serve.
     const auto asked = [&](const char* name) {
         const auto& stored = atmosphere_->model.manifest().settings;
@@ -328,14 +339,7 @@ Progress Scene::eclipseStep()
     const int finer = settings_.eclipseFine ? 4 : 1;
     const int halfViews = std::max(eclipseHalfViews, (asked("eclipse.views") + 1) / 2);
     const int halfTurn = std::max((eclipseAzimuths - 1) / 2, asked("eclipse.azimuths") - 1);
-    const bool lookUp = usesEclipseTable(settings_);
-    if (lookUp && eclipsed_.empty())
-        eclipsed_ = lookup_->eclipsed(settings_.altitude, std::cos(settings_.sun.zenithAngle),
-                                      atmosphere_->luminanceWeights(settings_.solarSpectrumFactors));
-    view_ = eclipse_->dimmed(ordinary_, lookUp ? &eclipsed_ : nullptr, finer * halfViews, finer * 2 * halfTurn + 1);
-    ready_ = true;
-    ++version_;
-    return {true, 1, {}};
+    return eclipse_->dimmed(sky, usesEclipseTable(settings_) ? &eclipsed_ : nullptr, finer * halfViews, finer * 2 * halfTurn + 1);
 }
 
 ViewTable Scene::glow() const
@@ -370,11 +374,22 @@ bool Scene::lightCities()
     return true;
 }
 
-/// SkyView::whole at the nodes of aerial perspective.
-ViewTable Scene::wholeOfLines() const
+/// Light of higher orders at the nodes of aerial perspective, as the textures have it.
+ViewTable Scene::multipleOfLines() const
 {
-    if (view_.whole.empty() || !view_.eclipse)
-        return resampled(view_.whole, Aerial::halfViews, Aerial::azimuths);
+    LayersUsed layers = layersUsed();
+    std::fill(layers.single.begin(), layers.single.end(), false);
+    OrdinarySky sky;
+    sky.view = lookup_->slice(settings_.altitude, std::cos(settings_.sun.zenithAngle), layers,
+                              atmosphere_->luminanceWeights(settings_.solarSpectrumFactors));
+    return atLines(view_.eclipse && !sky.view.whole.empty() ? eclipsedView(sky).whole : sky.view.whole);
+}
+
+/// A table as SkyView::whole has it, at the nodes of aerial perspective.
+ViewTable Scene::atLines(const ViewTable& table) const
+{
+    if (table.empty() || !view_.eclipse)
+        return resampled(table, Aerial::halfViews, Aerial::azimuths);
     const SkyAxes axes = skyAxes();
     const auto sines = viewSines(atmosphere_->planet(), settings_.altitude, Aerial::halfViews);
     const int columns = Aerial::columns(true);
@@ -383,7 +398,7 @@ ViewTable Scene::wholeOfLines() const
         const int half = v / Aerial::halfViews;
         const double view = axes.viewCoordinate(std::asin(sines[static_cast<std::size_t>(v)]), half);
         for (int a = 0; a < columns; ++a)
-            result.at(v, a) = sampled(view_.whole, view, half, axes.azimuthCoordinate(pi * (2. * a / (columns - 1) - 1)));
+            result.at(v, a) = sampled(table, view, half, axes.azimuthCoordinate(pi * (2. * a / (columns - 1) - 1)));
     }
     return result;
 }
@@ -393,13 +408,15 @@ bool Scene::aerialStep()
     if (!aerial_)
         aerial_ = std::make_unique<Aerial>(*atmosphere_, *phases_, moments_ ? &*moments_ : nullptr, *sun_);
     const bool eclipse = settings_.eclipse == EclipseMode::on;
-    const bool higherOrders = eclipse && moments_ && settings_.layers.multipleScattering;
+    const bool higherOrders = eclipse && !onceAtMost() && settings_.layers.multipleScattering;
     if (higherOrders && !eclipse_->followField())
         return false;
     if (!aerialSettings_ || !sameTables(settings_, *aerialSettings_) || !sameEclipse(settings_, *aerialSettings_)) {
-        AerialScene scene{settings_.altitude, std::cos(settings_.sun.zenithAngle),
-                          layersUsed(),       atmosphere_->luminanceWeights(settings_.solarSpectrumFactors),
-                          wholeOfLines(),     settings_.layers.lightPollution};
+        AerialScene scene{settings_.altitude,   std::cos(settings_.sun.zenithAngle),
+                          layersUsed(),         atmosphere_->luminanceWeights(settings_.solarSpectrumFactors),
+                          atLines(view_.whole), settings_.layers.lightPollution};
+        if (!moments_)
+            scene.multiple = multipleOfLines();
         if (eclipse) {
             const auto sun = directionOf(settings_.sun.azimuth, settings_.sun.zenithAngle);
             scene.eclipse = {std::atan2(sun[1], sun[0]),

@@ -67,7 +67,9 @@ private:
     ViewTable glow() const;
     bool lightCities();
     SkyView gathered(LayersUsed layers);
-    ViewTable wholeOfLines() const;
+    ViewTable atLines(const ViewTable& table) const;
+    ViewTable multipleOfLines() const;
+    SkyView eclipsedView(const OrdinarySky& sky) const;
     SkyAxes skyAxes() const;
     Progress eclipseStep();
     EclipseScene eclipseScene() const;

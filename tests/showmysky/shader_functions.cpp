@@ -443,6 +443,39 @@ TEST_CASE("shader functions: in an eclipse from the model's table light grows wi
     CHECK(shares[0] < 0.5);
 }
 
+TEST_CASE("shader functions: without moments light of higher orders up to a point is nearly the same, in an eclipse too", "[gl]")
+{
+    const auto context = gl::testing::context(desktop());
+    if (!context)
+        return;
+    Sky with(SHOWMYSKY_TEXTURE_MODEL, context->loader()), without(SHOWMYSKY_TEXTURE_MODEL "-alone", context->loader());
+    with.loadAll();
+    without.loadAll();
+    Host ofWith(context->api(), with, "showmyskyRadianceTo(d, metres)", 1, 1),
+        ofWithout(context->api(), without, "showmyskyRadianceTo(d, metres)", 1, 1);
+    struct Case {
+        double altitude, viewZenithDeg, distance;
+        bool eclipse;
+    };
+    for (const auto& [altitude, viewZenithDeg, distance, eclipse] :
+         {Case{0, 85, 30e3, false}, Case{0, 85, 30e3, true}, Case{2000, 100, 5e3, false}, Case{2000, 100, 5e3, true},
+          Case{2000, 100, 1e9, true}}) {
+        CAPTURE(altitude, viewZenithDeg, distance, eclipse);
+        auto settings = scene(altitude, 50, Source::textures);
+        settings.layers.singleScattering = settings.layers.zeroOrder = false;
+        settings.eclipse = eclipse ? EclipseMode::on : EclipseMode::off;
+        settings.moon = {settings.sun.azimuth, settings.sun.zenithAngle, 371925e3};
+        with.setSettings(settings);
+        without.setSettings(settings);
+        const auto direction = directionOf(settings.sun.azimuth + 1.5, viewZenithDeg * degree);
+        const auto expected = static_cast<double>(ofWith.ask(with, direction, distance).y),
+                   all = static_cast<double>(ofWith.ask(with, direction, 1e9).y),
+                   got = static_cast<double>(ofWithout.ask(without, direction, distance).y);
+        CAPTURE(expected, all, got);
+        CHECK(std::abs(got - expected) < 0.07 * all); // not all air is lit alike
+    }
+}
+
 TEST_CASE("shader functions: in an eclipse sky and illuminance are those of single directions", "[gl]")
 {
     const auto context = gl::testing::context(desktop());
