@@ -29,7 +29,7 @@ double positionAmong(const std::vector<double>& nodes, double x)
 physics::Stencil stencilOn(double position, int n)
 {
     if (n < 2)
-        return {{0, 0, 0, 0}, {0, 1, 0, 0}};
+        return {{0, 0, 0, 0}, {0, 1, 0, 0}, 0};
     return physics::uniformStencil(position, n);
 }
 

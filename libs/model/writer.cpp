@@ -74,8 +74,8 @@ Imf::Header makeHeader(const Table& table)
     Imf::Header header(table.columns(), table.rows());
     for (const std::string& channel : table.channelNames)
         header.channels().insert(channel, Imf::Channel(table.half ? Imf::HALF : Imf::FLOAT));
-    // Measured on smooth tables (docs/format.md): half to a quarter of ZIP's time at about its size.
-    header.compression() = Imf::PIZ_COMPRESSION;
+    // Measured on smooth tables (docs/format.md): PIZ takes half to a quarter of ZIP's time at about its size. Moments it leaves as they are.
+    header.compression() = table.channels == Channels::Named ? Imf::ZIP_COMPRESSION : Imf::PIZ_COMPRESSION;
     if (table.channels == Channels::SpectralRadiance || table.channels == Channels::SpectralDimensionless)
         header.insert("spectralLayoutVersion", Imf::StringAttribute("1.0"));
     if (table.channels == Channels::SpectralRadiance)

@@ -65,7 +65,7 @@ TEST_CASE("moments in a model: written and read they are the same to within a fl
         CHECK(after.grid.lowestElevation() == Approx(before.grid.lowestElevation()).epsilon(1e-12)); // there and back through sinh
         REQUIRE(after.values.size() == before.values.size());
         for (std::size_t i = 0; i < before.values.size(); ++i)
-            CHECK(after.values[i] == double(float(before.values[i])));
+            CHECK(after.values[i] == Approx(before.values[i]).margin(1.6e-5)); // half of the step that files keep
         REQUIRE(after.groundIrradiance.size() == before.groundIrradiance.size());
         for (std::size_t i = 0; i < before.groundIrradiance.size(); ++i)
             CHECK(after.groundIrradiance[i] == double(float(before.groundIrradiance[i])));
