@@ -3,6 +3,7 @@
 #include "physics/harmonics.hpp"
 #include "physics/table_axes.hpp"
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace sky::physics {
@@ -144,7 +145,7 @@ Stencil MomentGrid::altitudeStencil(const double altitude) const
     // (in haze the field is even in the measure there). A chord takes its place at the top, and where the neighbour is much nearer than
     // the interval is wide, at a layer's edge: the field bends there, and a slope taken from so short a step would be thrown far.
     const double h10 = t * (1 - t) * (1 - t) * gap, h11 = -t * t * (1 - t) * gap, h01 = t * t * (3 - 2 * t);
-    Stencil stencil{{std::max(k - 1, 0), k, k + 1, std::min(k + 2, n - 1)}, {0, 1 - h01, h01, 0}};
+    Stencil stencil{{std::max(k - 1, 0), k, k + 1, std::min(k + 2, n - 1)}, {0, 1 - h01, h01, 0}, t};
     if (k > 0 && measure_[k] - measure_[k - 1] > unevenness * gap) {
         const double before = measure_[k] - measure_[k - 1], sum = before + gap;
         stencil.weight[0] += h10 * -gap / (before * sum);
@@ -191,6 +192,7 @@ Stencil MomentGrid::sunStencil(const double position, const int chords) const
     const Stencil end = sunStencil(std::min(k + double(chord + 1) / chords, std::nextafter(k + 1., 0.)));
     for (int i = 0; i < 4; ++i)
         s.weight[i] += (u - chord) * (end.weight[i] - s.weight[i]);
+    s.between = std::clamp(position - k, 0., 1.);
     return s;
 }
 
@@ -226,16 +228,19 @@ void Moments::interpolate(const double altitude, const double muSun, double* con
     const Stencil b = grid.sunStencil(grid.sunPosition(std::asin(std::clamp(muSun, -1., 1.))), sunChords);
     const int count = harmonicCount(degree) * wavelengths;
     std::fill(result, result + count, 0.);
+    const std::array<double, 4> straight{0, 1 - a.between, a.between, 0};
     for (int i = 0; i < 4; ++i)
         for (int j = 0; j < 4; ++j) {
-            const double weight = a.weight[i] * b.weight[j], odd = b.index[j] < grid.sunCount() ? weight : -weight;
-            if (weight == 0)
+            const double mirror = b.index[j] < grid.sunCount() ? 1 : -1; // of odd orders
+            if (b.weight[j] == 0)
                 continue;
             const double* source = at(a.index[i], grid.sunAsHigh(b.index[j]));
-            for (int l = 0, k = 0; l <= degree; ++l)
+            for (int l = 0, k = 0; l <= degree; ++l) {
+                const double weight = (bentDegree < 0 || l <= bentDegree ? a.weight[i] : straight[i]) * b.weight[j];
                 for (int m = 0; m <= l; ++m)
                     for (int w = 0; w < wavelengths; ++w, ++k)
-                        result[k] += (m % 2 ? odd : weight) * source[k];
+                        result[k] += (m % 2 ? mirror : 1) * weight * source[k];
+            }
         }
     for (int w = 0; w < wavelengths; ++w)
         result[w] = std::exp(result[w]);

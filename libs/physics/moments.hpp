@@ -71,6 +71,7 @@ struct Moments {
     std::vector<double> values;           ///< [altitude][sun][lm][wavelength]; lm = 0: ln I_00, others: I_lm / I_00
     std::vector<double> groundIrradiance; ///< [sun][wavelength], diffuse, per unit solar irradiance
     int sunChords = 0;                    ///< for interpolation, see MomentGrid::sunStencil
+    int bentDegree = -1;                  ///< for interpolation: what is above is straight between two levels; -1: nothing is
 
     const double* at(int altitude, int sun) const;
     double* at(int altitude, int sun);

@@ -31,6 +31,10 @@ Optics makeOptics(const Medium& medium, int degree, bool truncate);
 /// Largest extinction cross section of each species over wavelengths, m^2.
 std::vector<double> largestExtinctions(const Optics& optics);
 
+/// Up to this degree tables of the radiance field are interpolated by cubics, above it straight between two neighbours: what is above is a
+/// small part of the light, but for sharp peaks, and its curvature a small part of that (docs/method 5 has what it costs and saves).
+int bentDegree(const Optics& optics);
+
 /// Azimuthal orders 0..m that light still shows at event `event` (2: scattered twice), at most the degree. Each event multiplies a
 /// harmonic by its lambda_l, and so does the next one, which shows it: order m counts while (2m + 1) lambda^(event + 1) > `negligible` for
 /// the largest lambda_l from l = m on; the first `least` always, for the planet's shadow also makes azimuths differ.

@@ -117,6 +117,7 @@ Moments iterateSource(const Medium& medium, const Profile& profile, const Optics
             total.groundIrradiance[i] += current.groundIrradiance[i];
         previous = std::move(current);
         previous.sunChords = sunChords;
+        previous.bentDegree = sunChords > 0 ? bentDegree(optics) : -1;
         toLogRatios(previous);
     }
     toLogRatios(total);

@@ -27,11 +27,7 @@ double limited(double outer, double near, double far) { return std::max(outer, n
 double interpolateLog(const Stencil& s, const std::array<double, 4>& values)
 {
     const auto counts = [&](int i) { return s.weight[i] != 0 && values[i] > 0; };
-    // The first moment of the stencil is the place between the middle nodes.
-    double t = 0;
-    for (int i = 0; i < 4; ++i)
-        t += s.weight[i] * (i - 1);
-    t = std::clamp(t, 0., 1.);
+    const double t = s.between;
     if (!(values[1] > 0) || !(values[2] > 0))
         return values[2] > 0 ? intoDarkness(t, values[2], values[3]) : values[1] > 0 ? intoDarkness(1 - t, values[1], values[0]) : 0;
     const double l1 = std::log(values[1]), l2 = std::log(values[2]);

@@ -9,6 +9,7 @@ namespace sky::physics {
 struct Stencil {
     std::array<int, 4> index;
     std::array<double, 4> weight;
+    double between; ///< place between the two in the middle, 0..1: what is straight goes by this alone
 };
 
 /// Catmull-Rom at `position` 0 .. n-1 of a uniform axis with n >= 2 nodes; beyond the ends the curve goes on straight.
@@ -17,7 +18,8 @@ inline Stencil uniformStencil(double position, int n)
     const int k = std::clamp(static_cast<int>(position), 0, n - 2);
     const double t = std::clamp(position - k, 0., 1.);
     Stencil s{{std::max(k - 1, 0), k, k + 1, std::min(k + 2, n - 1)},
-              {t * (-0.5 + t * (1 - 0.5 * t)), 1 + t * t * (-2.5 + 1.5 * t), t * (0.5 + t * (2 - 1.5 * t)), t * t * (-0.5 + 0.5 * t)}};
+              {t * (-0.5 + t * (1 - 0.5 * t)), 1 + t * t * (-2.5 + 1.5 * t), t * (0.5 + t * (2 - 1.5 * t)), t * t * (-0.5 + 0.5 * t)},
+              t};
     if (k == 0) {
         s.weight[1] += 2 * s.weight[0];
         s.weight[2] -= s.weight[0];
@@ -42,7 +44,7 @@ inline SunStencil sunStencil(double position, int n)
     Stencil s = uniformStencil(position, n);
     if (s.index[1] != n - 2)
         return {s, false};
-    const double t = std::clamp(position - (n - 2), 0., 1.), outer = t * t * (-0.5 + 0.5 * t);
+    const double t = s.between, outer = t * t * (-0.5 + 0.5 * t);
     s.index[3] = n - 2;
     s.weight[3] = outer;
     s.weight[2] -= 2 * outer;
@@ -56,7 +58,8 @@ inline Stencil mirroredStencil(double position, int n)
     const int k = std::clamp(static_cast<int>(position), 0, n - 2);
     const double t = std::clamp(position - k, 0., 1.);
     return {{k == 0 ? 1 : k - 1, k, k + 1, k + 2 >= n ? n - 2 : k + 2},
-            {t * (-0.5 + t * (1 - 0.5 * t)), 1 + t * t * (-2.5 + 1.5 * t), t * (0.5 + t * (2 - 1.5 * t)), t * t * (-0.5 + 0.5 * t)}};
+            {t * (-0.5 + t * (1 - 0.5 * t)), 1 + t * t * (-2.5 + 1.5 * t), t * (0.5 + t * (2 - 1.5 * t)), t * t * (-0.5 + 0.5 * t)},
+            t};
 }
 
 /// Interpolates positive quantities that span decades, such as light along the axis of the Sun: the stencil of a uniform axis,

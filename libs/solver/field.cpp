@@ -17,7 +17,7 @@ constexpr double toLog2 = 1.44269504088896340736;
 ///   coefficients  [node][lm][stride]
 ///   target        [node][sun][1 + term][stride]
 SKY_WIDEST_VECTORS
-void foldNodes(const FoldField& field, const ScatteredRays::FoldNode* nodes, int nodeCount, int degree, int azimuthal,
+void foldNodes(const FoldField& field, const ScatteredRays::FoldNode* nodes, int nodeCount, int degree, int bentDegree, int azimuthal,
                const float* coefficients, float* target)
 {
     const int stride = field.stride, values = field.harmonics * stride;
@@ -28,9 +28,11 @@ void foldNodes(const FoldField& field, const ScatteredRays::FoldNode* nodes, int
                 levels[i] = &field.moments[(std::size_t(nodes[k].level[i]) * field.suns + sun) * values];
             float* out = target + (k * field.suns + sun) * (azimuthal + 2) * stride;
             if (stride == 16) // the usual number of wavelengths: loops that the compiler can unroll
-                physics::foldNode(levels, nodes[k].weight, coefficients + k * values, degree, azimuthal, 16, out);
+                physics::foldNode(levels, nodes[k].weight, nodes[k].between, coefficients + k * values, degree, bentDegree, azimuthal, 16,
+                                  out);
             else
-                physics::foldNode(levels, nodes[k].weight, coefficients + k * values, degree, azimuthal, stride, out);
+                physics::foldNode(levels, nodes[k].weight, nodes[k].between, coefficients + k * values, degree, bentDegree, azimuthal,
+                                  stride, out);
         }
 }
 
@@ -189,7 +191,7 @@ void fold(const FoldField& field, const ScatteredRays& rays, const int first, co
             while (lit > 0 && shares[lit - 1].seen == 0)
                 --lit;
             foldDirections(rays, firstNode, lit, azimuthal, field.harmonics, stride, coefficients.data());
-            foldNodes(field, &rays.folds[firstNode], lit, rays.degree, azimuthal, coefficients.data(), spectral.data());
+            foldNodes(field, &rays.folds[firstNode], lit, rays.degree, rays.bentDegree, azimuthal, coefficients.data(), spectral.data());
             if (shares[rays.nodes].seen > 0)
                 foldGround(field, &rays.ground[std::size_t(first + r) * stride], rows, &spectral[rays.nodes * values * stride]);
             const int firstStation = rays.firstStation[first + r], stationCount = rays.firstStation[first + r + 1] - firstStation;

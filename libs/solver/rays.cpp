@@ -157,9 +157,9 @@ ScatteredRays::ScatteredRays(const gl::Api& api, const Scene& scene, const physi
 
 ScatteredRays::ScatteredRays(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid,
                              const std::vector<physics::RayNodes>& traced, const std::vector<Stations>& chosen, int nodeCount)
-    : count(static_cast<int>(traced.size())), nodes(nodeCount), degree(scene.optics.degree), firstStation(firstStations(chosen)),
-      rays(api, "scattered rays", rayTexels(traced, firstStation)), stations(api, "stations", stationTexels(chosen)),
-      folds(traced.size() * nodeCount), ground(groundTexels(scene, traced))
+    : count(static_cast<int>(traced.size())), nodes(nodeCount), degree(scene.optics.degree), bentDegree(physics::bentDegree(scene.optics)),
+      firstStation(firstStations(chosen)), rays(api, "scattered rays", rayTexels(traced, firstStation)),
+      stations(api, "stations", stationTexels(chosen)), folds(traced.size() * nodeCount), ground(groundTexels(scene, traced))
 {
     const auto& optics = scene.optics;
     const int stride = scene.sets() * 4, scatterers = scene.scatterers(), wavelengths = optics.wavelengths;
@@ -179,6 +179,7 @@ ScatteredRays::ScatteredRays(const gl::Api& api, const Scene& scene, const physi
                     folds[at].level[i] = stencil.index[i];
                     folds[at].weight[i] = static_cast<float>(stencil.weight[i]);
                 }
+                folds[at].between = static_cast<float>(stencil.between);
                 physics::harmonicFactors(degree, ray.nodes[k].mu, zenithal.data());
                 for (int lm = 0; lm < harmonics; ++lm)
                     factors[at * harmonics + lm] = static_cast<float>(zenithal[lm]);

@@ -71,8 +71,9 @@ struct ScatteredRays {
     struct FoldNode {
         int level[4]; ///< altitude stencil in the grid of moments
         float weight[4];
+        float between; ///< place between the two in the middle
     };
-    int count, nodes, degree;
+    int count, nodes, degree, bentDegree;
     std::vector<int> firstStation;       ///< [ray + 1]
     std::vector<Stations::Share> shares; ///< [ray][node + ground]
     TexelBuffer rays;                    ///< [ray]: first station, their number, mu at the start

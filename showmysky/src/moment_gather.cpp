@@ -42,9 +42,10 @@ void addProducts(const float* __restrict weights, const float* __restrict light,
 
 /// One node of the field at one Sun.
 SKY_WIDEST_VECTORS
-void foldField(const float* const levels[4], const float weights[4], const float* coefficients, int degree, int stride, float* out)
+void foldField(const float* const levels[4], const float weights[4], float between, const float* coefficients, int degree, int bentDegree,
+               int stride, float* out)
 {
-    physics::foldNode(levels, weights, coefficients, degree, degree, stride, out);
+    physics::foldNode(levels, weights, between, coefficients, degree, bentDegree, degree, stride, out);
 }
 
 /// Adds 2^level sum_m cos(m phi) term_m, all interpolated between four Suns.
@@ -71,7 +72,7 @@ MomentGather::MomentGather(const Atmosphere& atmosphere, const Phases& phases, c
                            const physics::SunTable& sun, double sunAngularRadius)
     : atmosphere_(atmosphere), phases_(phases), moments_(moments), sun_(sun), sunRadius_(static_cast<float>(sunAngularRadius)),
       stride_((atmosphere.wavelengths() + 3) / 4 * 4), scatterers_(atmosphere.scatterers()), degree_(moments ? moments->degree : 0),
-      suns_(moments ? moments->grid.sunCount() + 1 : 0)
+      bentDegree_(std::min(degree_, physics::bentDegree(atmosphere.optics))), suns_(moments ? moments->grid.sunCount() + 1 : 0)
 {
     const int wavelengths = atmosphere.wavelengths();
     const auto& depths = sun.opticalDepths();
@@ -207,7 +208,8 @@ const float* MomentGather::folded(Ray& ray, int node, int sun) const
             levels[i] = &field_[static_cast<std::size_t>((stencil.index[i] * suns_ + sun) * harmonics * stride_)];
             weights[i] = static_cast<float>(stencil.weight[i]);
         }
-        foldField(levels, weights, &ray.coefficients[static_cast<std::size_t>(node * harmonics * stride_)], degree_, stride_, result);
+        foldField(levels, weights, static_cast<float>(stencil.between),
+                  &ray.coefficients[static_cast<std::size_t>(node * harmonics * stride_)], degree_, bentDegree_, stride_, result);
         done = 1;
     }
     return result;

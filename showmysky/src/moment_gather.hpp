@@ -70,10 +70,10 @@ private:
     const sky::physics::Moments* moments_;
     const sky::physics::SunTable& sun_;
     float sunRadius_;
-    int stride_, scatterers_, degree_, suns_ = 0; // Suns: and one beyond the zenith
-    std::vector<float> sunDepths_;                // [altitude][elevation][stride]
-    std::vector<float> field_;                    // [altitude][sun][lm][stride]: log2 I_00, then ratios
-    std::vector<float> groundField_;              // [sun][2][stride]: log2 of the diffuse irradiance of the ground, then 1: as of a node
+    int stride_, scatterers_, degree_, bentDegree_, suns_ = 0; // Suns: and one beyond the zenith
+    std::vector<float> sunDepths_;                             // [altitude][elevation][stride]
+    std::vector<float> field_;                                 // [altitude][sun][lm][stride]: log2 I_00, then ratios
+    std::vector<float> groundField_; // [sun][2][stride]: log2 of the diffuse irradiance of the ground, then 1: as of a node
     double altitude_ = -1;
     std::vector<double> sines_;
     mutable std::vector<Ray> rays_;

@@ -42,35 +42,52 @@ void addSunlight(const SunNode* nodes, int count, int scatterers, int blocks, co
 struct FieldNode {
     const Block* corners[4];       ///< [sun][lm][block] at four altitudes, the first of four Suns
     std::ptrdiff_t sun;            ///< from one Sun to the next
+    std::ptrdiff_t middle;         ///< from the first to the two in the middle
     std::array<float, 16> weights; ///< [altitude][sun]
+    std::array<float, 4> straight; ///< [altitude][sun], of the four in the middle
     const float* harmonics;        ///< [lm][node], Y_lm of the ray's direction
     int nodes;
     const Block* scattering; ///< [scatterer][block]
 };
 
 /// Between sixteen neighbours.
-SKY_INLINE Lanes interpolated(const FieldNode& n, const std::array<float, 16>& weights, int at)
+SKY_INLINE Lanes interpolated(const FieldNode& n, int at)
 {
     Lanes even = all(0), odd = all(0);
     for (int i = 0; i < 4; ++i) {
         const Block* corner = n.corners[i] + at;
-        even += weights[4 * i] * corner[0].v + weights[4 * i + 2] * corner[2 * n.sun].v;
-        odd += weights[4 * i + 1] * corner[n.sun].v + weights[4 * i + 3] * corner[3 * n.sun].v;
+        even += n.weights[4 * i] * corner[0].v + n.weights[4 * i + 2] * corner[2 * n.sun].v;
+        odd += n.weights[4 * i + 1] * corner[n.sun].v + n.weights[4 * i + 3] * corner[3 * n.sun].v;
     }
     return even + odd;
 }
 
+/// Between the four neighbours in the middle.
+SKY_INLINE Lanes interpolatedStraight(const FieldNode& n, int at)
+{
+    const Block *low = n.corners[1] + at + n.middle, *high = n.corners[2] + at + n.middle;
+    return (n.straight[0] * low[0].v + n.straight[1] * low[n.sun].v) + (n.straight[2] * high[0].v + n.straight[3] * high[n.sun].v);
+}
+
 SKY_WIDEST_VECTORS
-void addField(const FieldNode& from, int degree, int scatterers, int blocks, const Block* lambda, Block* byDegree, Block* sum)
+void addField(const FieldNode& from, int degree, int bentDegree, int scatterers, int blocks, const Block* lambda, Block* byDegree,
+              Block* sum)
 {
     const FieldNode n = from; // whose fields no store below can change
     for (int b = 0; b < blocks; ++b) {
-        const Lanes logarithm = interpolated(n, n.weights, b);
+        const Lanes logarithm = interpolated(n, b);
         byDegree[0].v = all(n.harmonics[0]);
-        for (int l = 1, lm = 1; l <= degree; ++l) {
+        int lm = 1;
+        for (int l = 1; l <= bentDegree; ++l) {
             Lanes towards = all(0);
             for (int m = 0; m <= l; ++m, ++lm)
-                towards += n.harmonics[lm * n.nodes] * interpolated(n, n.weights, lm * blocks + b);
+                towards += n.harmonics[lm * n.nodes] * interpolated(n, lm * blocks + b);
+            byDegree[l].v = towards;
+        }
+        for (int l = bentDegree + 1; l <= degree; ++l) {
+            Lanes towards = all(0);
+            for (int m = 0; m <= l; ++m, ++lm)
+                towards += n.harmonics[lm * n.nodes] * interpolatedStraight(n, lm * blocks + b);
             byDegree[l].v = towards;
         }
         Lanes light = all(0);
@@ -157,7 +174,8 @@ FastGather::FastGather(const physics::Medium& medium, const physics::Optics& opt
                        const physics::Moments* moments, const Effort& effort)
     : sun_(sun), moments_(moments), planet_{medium.planetRadius, medium.topOfAtmosphere}, profile_(medium, effort.profileTolerance),
       folder_(profile_, optics, effort), wavelengths_(optics.wavelengths), blocks_(folder_.blocks()), scatterers_(folder_.scatterers()),
-      degree_(optics.degree), sunRadius_(medium.sunAngularRadius), angles_(medium.scatteringAngles)
+      degree_(optics.degree), bentDegree_(physics::bentDegree(optics)), sunRadius_(medium.sunAngularRadius),
+      angles_(medium.scatteringAngles)
 {
     const auto& depths = sun.opticalDepths();
     depth_ = toBlocks(depths.data(), depths.size() / wavelengths_, wavelengths_);
@@ -288,15 +306,18 @@ void FastGather::gatherMultiple(FastScratch& scratch, const double muSun, const 
         const auto sun = grid.sunStencil(grid.sunPosition(double(scratch.elevations[k])));
         // Four neighbours in a row: at the lowest Sun the first, which has no weight, stands at the end instead.
         const int first = std::max(sun.index[1] - 1, 0), ahead = first - (sun.index[1] - 1);
+        field.middle = (1 - ahead) * field.sun;
         const auto& altitudes = scratch.fieldRows[k];
         for (int i = 0; i < 4; ++i) {
             field.corners[i] = &field_[(static_cast<std::size_t>(altitudes.index[i]) * suns + first) * harmonics * blocks_];
             for (int j = 0; j < 4; ++j)
                 field.weights[4 * i + j] = static_cast<float>(altitudes.weight[i] * sun.weight[(j + ahead) % 4]);
         }
+        const float up = static_cast<float>(altitudes.between), on = static_cast<float>(sun.between);
+        field.straight = {(1 - up) * (1 - on), (1 - up) * on, up * (1 - on), up * on};
         field.harmonics = &scratch.harmonics[k];
         field.scattering = &set.weights[k * scatterers_ * blocks_];
-        addField(field, degree_, scatterers_, blocks_, lambda_.data(), scratch.byDegree.data(), scratch.sum.data());
+        addField(field, degree_, bentDegree_, scatterers_, blocks_, lambda_.data(), scratch.byDegree.data(), scratch.sum.data());
     }
 }
 

@@ -61,7 +61,7 @@ private:
     sky::physics::Planet planet_;
     sky::physics::Profile profile_;
     RayFolder folder_;
-    int wavelengths_, blocks_, scatterers_, degree_;
+    int wavelengths_, blocks_, scatterers_, degree_, bentDegree_;
     double sunRadius_;
     lanes::Blocks depth_;           ///< [altitude][elevation][block], optical depth towards the Sun
     lanes::Blocks field_;           ///< [altitude][sun][lm][block], as physics::Moments::values
