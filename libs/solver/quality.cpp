@@ -30,17 +30,17 @@ const std::vector<Point>& points()
     static const std::vector<Point> list{
         {"draft",
          0.5,
-         {12, 24, 3, 4, 3, 6, 4, 48, 8, true, 5e-3, 4},
+         {12, 24, 4, 4, 3, 6, 4, 48, 8, true, 5e-3, 4},
          {20, 8, 2},
          {{Clear, 0.0095}, {Dusty, 0.023}, {Dense, 0.014}, {Hazy, 0.0069}, {Cloudy, 0.015}}},
         {"normal",
          1,
-         {14, 28, 5, 7, 4, 8, 6, 48, 10, true, 2.5e-3, 4},
+         {14, 28, 8, 7, 4, 8, 6, 48, 10, true, 2.5e-3, 4},
          {64, 10, 3},
          {{Clear, 0.0069}, {Dusty, 0.0098}, {Dense, 0.0079}, {Hazy, 0.0067}, {Cloudy, 0.014}}},
         {"good",
          3,
-         {18, 36, 10, 8, 5, 10, 10, 96, 14, true, 1e-3, 5},
+         {18, 36, 12, 8, 5, 10, 10, 96, 14, true, 1e-3, 5},
          {72, 14, 3},
          {{Clear, 0.0024}, {Dusty, 0.004}, {Dense, 0.0052}, {Hazy, 0.0032}, {Cloudy, 0.013}}},
         {"fine",
@@ -144,7 +144,7 @@ constexpr double thick = 1.2;
 /// haze: the aureole of light scattered twice is cut with the peak, and a cloud washes it out.
 physics::MomentSettings forPeaks(physics::MomentSettings m, const bool dense)
 {
-    m.degree = std::max(dense ? 14 : 18, m.degree + 8);
+    m.degree = std::max(dense ? 14 : 18, m.degree + 6);
     m.nodes += 2;
     m.groundDirections += 2;
     m.skyDirections += 2;
