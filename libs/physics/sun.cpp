@@ -54,17 +54,33 @@ std::pair<double, double> opticalDepthBetween(const Profile& profile, const Opti
     return {*least * (to - from), *most * (to - from)};
 }
 
+/// Altitudes between `low` and a jump of density, or the end of the air, above it, downwards: halves the way to the jump until a horizontal ray
+/// from there meets little on its way out, since its optical depth goes with the root of that way.
+std::vector<double> altitudesUnderJump(const Profile& profile, const Optics& optics, double low, double jump)
+{
+    constexpr double little = 0.3;
+    constexpr int most = 16;
+    const double way = jump - low, chord = std::sqrt(way * (2 * (profile.planet().radius + low) + way));
+    const double grazing = opticalDepthBetween(profile, optics, low, jump).second * chord / way;
+    const int count = grazing > little ? std::min(most, static_cast<int>(2 * std::log2(grazing / little)) + 1) : 0;
+    std::vector<double> result;
+    for (int i = count; i > 0; --i)
+        result.push_back(jump - way * std::ldexp(1., -i));
+    return result;
+}
+
 /// Levels for a table over altitude: evenly spread for a gentle atmosphere, both sides of every jump of the profile, and more where
-/// the air is dense: between two levels optical depths are taken as linear in sqrt(r^2 - R^2), which they are not in haze or a cloud.
+/// the air is dense or ends: between two levels optical depths are taken as linear in sqrt(r^2 - R^2), which they are not in haze or a cloud.
 std::vector<double> tableAltitudes(const Profile& profile, const Optics& optics, int count)
 {
     const auto& p = profile.planet();
     const double narrow = 1e-5 * p.topOfAtmosphere;
-    std::vector<double> all = altitudeNodes(p, count);
+    std::vector<double> all = altitudeNodes(p, count), jumps{p.topOfAtmosphere};
     const auto& shells = profile.shells();
     for (size_t k = 0; k + 1 < shells.size(); ++k)
         if (shells[k + 1] - shells[k] < narrow) {
             all.push_back(shells[k]);
+            jumps.push_back(shells[k]);
             while (k + 1 < shells.size() && shells[k + 1] - shells[k] < narrow) // where a density goes to zero there may be hundreds
                 ++k;
             all.push_back(shells[k]);
@@ -79,6 +95,10 @@ std::vector<double> tableAltitudes(const Profile& profile, const Optics& optics,
         const auto [leastAbove, above] = opticalDepthBetween(profile, optics, middle, all[k + 1]);
         const double wanted = std::max((below + above) / rowOpticalDepth, std::sqrt(0.5 * std::abs(below - above) / rowCurvature));
         const int parts = overhead > dark ? 1 : std::clamp(static_cast<int>(std::min(wanted, 1e3)) + 1, 1, mostParts);
+        if (overhead <= dark && std::find(jumps.begin(), jumps.end(), all[k + 1]) != jumps.end()) {
+            const auto under = altitudesUnderJump(profile, optics, altitudeOfHorizon(p, x1 - (x1 - x0) / parts), all[k + 1]);
+            levels.insert(levels.end(), under.begin(), under.end());
+        }
         for (int i = parts - 1; i > 0; --i)
             levels.push_back(altitudeOfHorizon(p, x0 + (x1 - x0) * i / parts));
         levels.push_back(all[k]);

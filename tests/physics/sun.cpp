@@ -141,6 +141,20 @@ TEST_CASE("direct sunlight: of optical depth 1000 the table resolves what light 
     }
 }
 
+TEST_CASE("direct sunlight: a low Sun goes out within metres under a sharp edge of the air")
+{
+    auto medium = sky::test::layer(3, 1, 0, sky::test::isotropicPhase, 6.4e8,
+                                   1000); // a horizontal ray from a metre under the edge: optical depth 100
+    medium.sunAngularRadius = 0.00465;
+    const Air air(std::move(medium));
+    for (const double under : {0.03, 0.3, 1., 3., 8.})
+        for (const double elevation : {-0.003, 0., 0.002}) {
+            INFO(under << " m under the edge, elevation " << elevation);
+            CHECK(air.tabulated(1000 - under, elevation, 0) ==
+                  Approx(air.brute(1000 - under, elevation, 0)).epsilon(0.05).margin(1e-8)); // between altitudes
+        }
+}
+
 TEST_CASE("direct sunlight: behind a shell so thin that the Sun's light goes out over a tenth of its disc")
 {
     // 500 m of fog and 500 m of nothing: the horizon at the top is 0.00056 rad below the ground's.
