@@ -35,7 +35,7 @@ const std::vector<Point>& points()
          {{Clear, 0.0095}, {Dusty, 0.023}, {Dense, 0.014}, {Hazy, 0.0069}, {Cloudy, 0.015}}},
         {"normal",
          1,
-         {14, 28, 8, 7, 4, 8, 6, 48, 10, true, 2.5e-3, 4},
+         {14, 28, 8, 7, 4, 8, 6, 64, 10, true, 2.5e-3, 4},
          {64, 10, 3},
          {{Clear, 0.0069}, {Dusty, 0.0098}, {Dense, 0.0079}, {Hazy, 0.0067}, {Cloudy, 0.014}}},
         {"good",
