@@ -11,11 +11,11 @@ TEST_CASE("parallel work: every thread runs once, and all have ended on return")
     std::vector<std::atomic<int>> runs(1024);
     std::atomic<int> count = 0;
     base::parallel([&](int thread, int threads) {
-        REQUIRE(threads <= 1024);
         count = threads;
-        ++runs[thread];
+        if (thread < 1024) // Catch2 asserts in one thread alone
+            ++runs[thread];
     });
-    REQUIRE(count >= 1);
+    REQUIRE((count >= 1 && count <= 1024));
     for (int t = 0; t < 1024; ++t)
         CHECK(runs[t] == (t < count ? 1 : 0));
 }
