@@ -14,7 +14,7 @@ struct FieldSettings {
     int groundDirections = 6;   ///< zenith angles from nadir to the horizon
     int limbDirections = 3;     ///< from the horizon to the horizontal
     int skyDirections = 6;      ///< from the horizontal to the zenith
-    int azimuths = 8;           ///< over the whole turn, a multiple of 4
+    int azimuths = 12;          ///< over the whole turn, a multiple of 4
     int directNodes = 24;       ///< along a ray, for sunlight
     int nodes = 12;             ///< along a ray, for scattered light
     int sunlightAltitudes = 32; ///< levels at which sunlight is known

@@ -26,7 +26,7 @@ constexpr float leastRatio = 1e-9f;
 constexpr double leastAltitude = 1;
 /// Seconds for one field of three events and eight wavelengths, on two cores, before the medium is known; for one visit of a ray's node by eight
 /// wavelengths in one azimuth over one point of the grid.
-constexpr double usualStateSeconds = 0.09, secondsPerVisit = 5.5e-9;
+constexpr double usualStateSeconds = 0.09, secondsPerVisit = 6e-9;
 /// Levels of clear air; a visit takes the longer the more there are, since fewer of them stay in the cache.
 constexpr double fewLevels = 13;
 /// Events until quotients are known, of the events until the ordinary light is: the shadow is filled from far away.
@@ -46,12 +46,14 @@ eclipse::FieldSettings tableSettings(const std::string& quality)
         s.groundDirections = 3;
         s.limbDirections = 2;
         s.skyDirections = 4;
+        s.azimuths = 8;
         s.directNodes = 12;
         s.nodes = 6;
         s.viewNodes = 10;
     } else if (quality == "normal") {
         s.along = 15;
         s.across = 8;
+        s.azimuths = 8;
         s.directNodes = 16;
         s.nodes = 9;
         s.degree = 4;
@@ -65,7 +67,6 @@ eclipse::FieldSettings tableSettings(const std::string& quality)
         s.groundDirections = 6;
         s.limbDirections = 4;
         s.skyDirections = 8;
-        s.azimuths = 12;
         s.directNodes = finest ? 48 : 32;
         s.nodes = finest ? 16 : 12;
         s.viewNodes = finest ? 40 : 24;
