@@ -12,7 +12,7 @@ struct FieldSettings {
     double core = 50e3;         ///< m: within about this distance of both the points stand evenly, then ever wider
     int degree = 5;             ///< of the harmonics, at most mostDegree and that of the optics
     int groundDirections = 6;   ///< zenith angles from nadir to the horizon
-    int limbDirections = 3;     ///< from the horizon to the horizontal
+    int limbDirections = 2;     ///< from the horizon to the horizontal
     int skyDirections = 6;      ///< from the horizontal to the zenith
     int azimuths = 12;          ///< over the whole turn, a multiple of 4
     int directNodes = 24;       ///< along a ray, for sunlight
