@@ -92,11 +92,12 @@ std::vector<double> largestExtinctions(const Optics& optics)
     return largest;
 }
 
-int bentDegree(const Optics& optics)
+bool truncates(const Optics& optics)
 {
-    const bool peaks = std::any_of(optics.truncation.begin(), optics.truncation.end(), [](double f) { return f > 0; });
-    return std::min(optics.degree, peaks ? 10 : 4);
+    return std::any_of(optics.truncation.begin(), optics.truncation.end(), [](double f) { return f > 0; });
 }
+
+int bentDegree(const Optics& optics) { return std::min(optics.degree, truncates(optics) ? 10 : 4); }
 
 int azimuthalDegree(const Optics& optics, const int event, const double negligible, const int least)
 {

@@ -31,6 +31,9 @@ Optics makeOptics(const Medium& medium, int degree, bool truncate);
 /// Largest extinction cross section of each species over wavelengths, m^2.
 std::vector<double> largestExtinctions(const Optics& optics);
 
+/// Whether any peak is truncated.
+bool truncates(const Optics& optics);
+
 /// Up to this degree tables of the radiance field are interpolated by cubics, above it straight between two neighbours: what is above is a
 /// small part of the light, but for sharp peaks, and its curvature a small part of that (docs/method 5 has what it costs and saves).
 int bentDegree(const Optics& optics);
