@@ -7,8 +7,8 @@ BIN is the directory of the programs. Each scene is computed and asked for its s
 atmosphere and above; Sun and view at zenith, nadir, horizon, and equal. A scene fails where a program ends with anything but 0 (or 2 with a
 sentence: the parser refused it); where a radiance is NaN, infinite or negative, from the moments or from the textures; where it jumps between two
 places however near they are; or where more light leaves than came. With --verify each model is also compared with the Monte Carlo reference:
-it fails where its error in day, sunset or twilight is above --bound by more than two standard errors of the judge. Regimes of which the judge could
-tell fewer than eight samples to 5 % are counted as not judged; scenes with sharp peaks are judged with all orders. Prints one line a scene; what it needs to be repeated is its number and --seed. Exit code 1 if any failed. Needs NumPy.
+it fails where its error is above BOUNDS by more than two standard errors of the judge. Light of which the judge could tell fewer than eight
+samples to 5 % is counted as not judged; scenes with sharp peaks are judged with all orders. Prints one line a scene; what it needs to be repeated is its number and --seed. Exit code 1 if any failed. Needs NumPy.
 """
 import argparse
 import json
@@ -28,12 +28,14 @@ from judge import dip, special_places
 from scenes import scene
 
 
-REGIMES = ("day", "sunset", "twilight")
 HERE = os.path.dirname(os.path.abspath(__file__))
 TOO_LONG = 124
 JUDGING = 60 # seconds of a processor's time for the questions to a model, beside those that its computation may take
-ENOUGH = 8 # samples that say something about a regime
-DARK = 1e-6 # of the brightest
+ENOUGH = 8 # samples that say something
+# Largest rms error against the reference, by phase functions (gentle, or with peaks sharper than the harmonics) and by the light of a sample,
+# of that of the brightest. Less than the last is dark, and nobody's error.
+LIGHT = (("bright", 1e-2), ("faint", 1e-6))
+BOUNDS = {("gentle", "bright"): 0.05, ("gentle", "faint"): 0.2, ("sharp", "bright"): 0.15, ("sharp", "faint"): 1.0}
 
 
 def run(command, seconds):
@@ -70,7 +72,7 @@ def judge_textures(viewer, model, facts, scratch, seconds):
 
 
 def judge(options, model, facts, scratch):
-    """Complaints about one model, and the largest difference between the two methods of answering; None where that took too long to be told. A program of
+    """Complaints about one model, and by its light the largest difference between the two methods of answering; None where that took too long to be told. A program of
     its own, so that a question that never ends, or that ends the program, costs this scene alone."""
     given = os.path.join(scratch, "facts.json")
     with open(given, "w") as file:
@@ -82,8 +84,9 @@ def judge(options, model, facts, scratch):
         return [f"questions: exit code {code}: {said[-300:]}"], None, False
     answer = json.loads(said)
     complaints, error, several = answer["complaints"], answer["error"], answer["several"]
-    if not error <= options.precision:
-        complaints.append(f"fast and precise answers differ by {100 * error:.1f} % at {answer['where']}")
+    for light, bound in (("bright", options.precision), ("faint", options.faint_precision)):
+        if light in error and not error[light][0] <= bound:
+            complaints.append(f"fast and precise answers differ by {100 * error[light][0]:.1f} % at {error[light][1]}")
     if several and not options.moments:
         complaints += judge_textures(os.path.join(options.bin, "showmysky"), model, facts, scratch, options.seconds)
     return complaints, error, several
@@ -97,37 +100,38 @@ def rms_of(rows):
 
 
 def verify(options, model, facts, scratch):
-    """Complaints, and (regime, rms error, its uncertainty) against the Monte Carlo reference; (regime, None, None) where it could not tell.
-    Left out: what is darker than DARK of the brightest; and the ground in view behind air with sharp peaks, where light scattered within a peak is
+    """Complaints, and ((phase functions, light), rms error, its uncertainty) against the Monte Carlo reference; (.., None, None) where it could not tell.
+    Left out: what is dark; and the ground in view behind air with sharp peaks, where light scattered within a peak is
     the air's to the reference and the ground's to the model."""
-    report = os.path.join(scratch, "v.json")
+    report, kind = os.path.join(scratch, "v.json"), "gentle" if facts["gentle"] else "sharp"
     code, said = run([os.path.join(options.bin, "calcmysky"), "verify", model, "--seconds", str(options.verify), "--json", report, "-q"],
                      options.seconds + 10 * options.verify)
     if code == TOO_LONG: # the judge's own time, not the model's
-        return [], [(regime, None, None) for regime in REGIMES]
+        return [], [((kind, name), None, None) for name, _ in LIGHT]
     if code != 0:
         return [f"verify: exit code {code}: {said[-300:]}"], []
     with open(report) as file:
         rows = json.load(file).get("rows") or []
     light = {id(row): row["reference_single"] + row["reference_multiple"] for row in rows}
     brightest = max(light.values(), default=0)
-    used = {regime: [] for regime in REGIMES}
+    used = {name: [] for name, _ in LIGHT}
     for row in rows:
         ground = math.radians(row["vza_deg"]) > math.pi / 2 + dip(facts, row["altitude_m"])
-        if light[id(row)] > DARK * brightest and (facts["gentle"] or not ground):
-            used[row["regime"]].append((row["error"], row["reference_stderr"] / light[id(row)]))
-    found = [(regime, *rms_of(part)) if len(part) >= ENOUGH else (regime, None, None) for regime, part in used.items()]
-    return [f"error {100 * rms:.1f} % +- {100 * noise:.1f} % by {regime}" for regime, rms, noise in found
-            if rms is not None and rms - 2 * noise > options.bound], found
+        name = next((name for name, share in LIGHT if light[id(row)] > share * brightest), None)
+        if name and (facts["gentle"] or not ground):
+            used[name].append((row["error"], row["reference_stderr"] / light[id(row)]))
+    found = [((kind, name), *(rms_of(part) if len(part) >= ENOUGH else (None, None))) for name, part in used.items()]
+    return [f"error {100 * rms:.1f} % +- {100 * noise:.1f} % of {name} light" for (_, name), rms, noise in found
+            if rms is not None and rms - 2 * noise > BOUNDS[kind, name]], found
 
 
 def summary(verdicts):
-    """Errors by regime: how many scenes were judged, and how the errors spread."""
-    for regime in REGIMES:
-        mine = sorted((rms, noise, number) for number, name, rms, noise in verdicts if name == regime and rms is not None)
+    """Errors by phase functions and light: how many scenes were judged, and how the errors spread."""
+    for kind, bound in BOUNDS.items():
+        mine = sorted((rms, noise, number) for number, name, rms, noise in verdicts if name == kind and rms is not None)
         told = len(mine)
-        asked = sum(name == regime for _, name, _, _ in verdicts)
-        print(f"  {regime:8}  {told:3d} of {asked} scenes judged" + (f"; rms error: median {100 * mine[told // 2][0]:.1f} %, nine of ten below "
+        asked = sum(name == kind for _, name, _, _ in verdicts)
+        print(f"  {' '.join(kind):14}  bound {100 * bound:3.0f} %, {told:2d} of {asked} scenes judged" + (f"; rms error: median {100 * mine[told // 2][0]:.1f} %, nine of ten below "
               f"{100 * mine[min(told - 1, 9 * told // 10)][0]:.1f} %, largest {100 * mine[-1][0]:.1f} +- {100 * mine[-1][1]:.1f} % (scene {mine[-1][2]})" if mine else ""))
 
 
@@ -164,7 +168,7 @@ def campaign(options):
             else:
                 complaints, difference, several = judge(options, model, facts, scratch)
                 if difference is not None:
-                    differences.append((difference, number))
+                    differences.append(difference)
                 elif not complaints:
                     late += 1
                     verdict = f"not judged: the questions take more than {options.seconds + JUDGING:g} s"
@@ -175,8 +179,10 @@ def campaign(options):
             failed += bool(complaints)
             print(f"{number:4d} {took:6.1f} s  {'FAILED  ' if complaints else ''}{'; '.join(complaints[:3]) or verdict}  [{facts['about']}]", flush=True)
     print(f"{len(numbers)} scenes, {refused} refused by the parser, {late} too long to judge, {failed} failed (seed {options.seed})")
-    if differences:
-        print(f"  fast against precise answers: {100 * max(differences)[0]:.2g} % at most, {100 * sorted(differences)[len(differences) // 2][0]:.2g} % median")
+    for name, _ in LIGHT:
+        errors = sorted(difference[name][0] for difference in differences if name in difference)
+        if errors:
+            print(f"  fast against precise answers, {name} light: {100 * errors[-1]:.2g} % at most, {100 * errors[len(errors) // 2]:.2g} % median")
     if verdicts:
         summary(verdicts)
     return 1 if failed else 0
@@ -191,9 +197,9 @@ if __name__ == "__main__":
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--seconds", type=float, default=300, help="processor time for each program")
     parser.add_argument("--quality", default="draft", help="of the models; the judge looks for what no quality excuses")
-    parser.add_argument("--precision", type=float, default=0.1, help="largest difference between fast and precise answers")
+    parser.add_argument("--precision", type=float, default=0.1, help="largest difference between fast and precise answers, of bright light")
+    parser.add_argument("--faint-precision", type=float, default=0.1, help="the same of faint light")
     parser.add_argument("--moments", action="store_true", help="judge the moments alone, and leave out scenes that take longer than --seconds")
     parser.add_argument("--verify", type=float, default=0, help="seconds of Monte Carlo for each scene")
-    parser.add_argument("--bound", type=float, default=math.inf, help="largest rms error against it")
     parser.add_argument("--keep", help="keep descriptions and models here")
     sys.exit(campaign(parser.parse_args()))

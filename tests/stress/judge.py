@@ -3,8 +3,8 @@
 
     tests/stress/judge.py MODEL FACTS.json
 
-asks both methods of answering and prints, as JSON, the complaints, the largest difference between the two and where, and whether there are several
-orders. Needs NumPy, and the library in $SHOWMYSKY_LIBRARY.
+asks both methods of answering and prints, as JSON, the complaints, the largest difference between the two and where, of bright light and of faint, and
+whether there are several orders. Needs NumPy, and the library in $SHOWMYSKY_LIBRARY.
 """
 import json
 import math
@@ -124,13 +124,18 @@ def judge_energy(light, layers, facts):
 
 
 def judge_methods(fast, reference, layers, facts):
-    """The fast answers against those in double precision."""
+    """The fast answers against those in double precision: largest difference and where, of bright light and of faint."""
     rows = special_places(facts)[::3] # the precise ones take milliseconds each
     rows = rows[np.abs(rows[:, 2] - math.pi / 2 - np.array([dip(facts, h) for h in rows[:, 0]])) > 1e-6] # both sides of the horizon are right on it
     a, b = (light.radiance(*rows.T, layers=layers) for light in (fast, reference))
-    error = np.abs(a - b).max(axis=1) / np.maximum(b.max(axis=1), 1e-6 * max(b.max(), 1e-300))
-    worst = int(np.argmax(error))
-    return float(error[worst]), place(rows[worst])
+    light = b.max(axis=1) / max(b.max(), 1e-300)
+    error = np.abs(a - b).max(axis=1) / max(b.max(), 1e-300) / np.maximum(light, 1e-6)
+    found = {}
+    for name, some in (("bright", light > 1e-2), ("faint", ~(light > 1e-2))): # no number is faint
+        if some.any():
+            worst = int(np.argmax(np.where(some, error, -1)))
+            found[name] = float(error[worst]), place(rows[worst])
+    return found
 
 
 def judge(model, facts):
@@ -143,8 +148,8 @@ def judge(model, facts):
         except showmysky.Error: # one order, or nothing scatters: there are no moments
             layers = showmysky.SINGLE_SCATTERING
         complaints = judge_values(fast, layers, facts) + judge_steps(fast, layers, facts) + judge_energy(fast, layers, facts)
-        error, where = judge_methods(fast, reference, layers, facts)
-        return {"complaints": complaints, "error": error, "where": where, "several": bool(layers & showmysky.MULTIPLE_SCATTERING)}
+        return {"complaints": complaints, "error": judge_methods(fast, reference, layers, facts),
+                "several": bool(layers & showmysky.MULTIPLE_SCATTERING)}
 
 
 if __name__ == "__main__":
