@@ -2,11 +2,11 @@
 #include <catch2/catch.hpp>
 
 #include "../fuzz/atmo_fuzz.hpp"
+#include "../fuzz/damage.hpp"
 
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <random>
 #include <vector>
 
 namespace {
@@ -40,19 +40,9 @@ TEST_CASE("fuzz: every seed is refused with a message or means what its canonica
 TEST_CASE("fuzz: so is every damaged seed")
 {
     std::mt19937 engine(6);
-    const auto below = [&](std::size_t limit) { return std::uniform_int_distribution<std::size_t>(0, limit - 1)(engine); };
     const std::vector<std::string> texts = seeds();
     for (int round = 0; round < 3000; ++round) {
-        std::string text = texts[below(texts.size())];
-        for (std::size_t damage = below(4) + 1; damage > 0 && !text.empty(); --damage) {
-            const std::size_t at = below(text.size()), length = std::min<std::size_t>(below(40) + 1, text.size() - at);
-            switch (below(4)) {
-            case 0: text[at] = static_cast<char>(below(256)); break;
-            case 1: text.erase(at, length); break;
-            case 2: text.insert(below(text.size()), text.substr(at, length)); break;
-            default: text.insert(at, 1, ":{}`\"#\n,=[]"[below(11)]);
-            }
-        }
+        const std::string text = fuzz::damaged(texts, ":{}`\"#\n,=[]", engine);
         INFO(text);
         REQUIRE_NOTHROW(fuzz::checkDescription(text));
         REQUIRE_NOTHROW(fuzz::checkTable(text));
