@@ -12,7 +12,7 @@ namespace sky::solver {
 /// Work of one dispatch, in node visits: some tens of milliseconds on two cores, far below any watchdog on a GPU.
 constexpr std::size_t visitsPerDispatch = 1 << 21;
 /// What is prepared for the rays of one dispatch.
-constexpr std::size_t sourceBytes = std::size_t(16) << 20;
+constexpr std::size_t sourceBytes = std::size_t(4) << 20;
 
 inline void bind(gl::Program& program, const char* name, int unit, const TexelBuffer& texels)
 {

@@ -87,8 +87,8 @@ void LitGather::sumWavelengths(const DirectRayData& rays, int first, int count, 
                     for (int c = 0; c < 4; ++c)
                         channels[i / 2 * wavelengths + w].v[i % 2 * 4 + c] = weights[i * wavelengths + w] * luminance_[w][c];
             const float* place = &rays.rayNodes[(std::size_t(ray) * (rays.nodes + 1) + node) * 8 + 4];
-            const float* near = &logTransmittance_[std::size_t(place[2]) * elevations * wavelengths];
-            sumNode(near, near + std::size_t(elevations) * wavelengths, place[3], channels.data(), elevations, wavelengths, scatterers,
+            const float* near = &logTransmittance_[std::size_t(place[0]) * elevations * wavelengths];
+            sumNode(near, near + std::size_t(elevations) * wavelengths, place[1], channels.data(), elevations, wavelengths, scatterers,
                     light.data(), sums.data());
             levelAndColour(sums.data(), elevations * scatterers, lit + std::size_t(item) * sums.size());
         }

@@ -19,14 +19,6 @@ std::vector<float> orOneTexel(std::vector<float> values)
     return values;
 }
 
-void putNode(float* to, const physics::RayNodes::Node& node, double flag)
-{
-    to[0] = static_cast<float>(node.sunScale);
-    to[1] = static_cast<float>(node.nuScale);
-    to[2] = static_cast<float>(node.mu);
-    to[3] = static_cast<float>(flag);
-}
-
 std::vector<float> groundTexels(const Scene& scene, const std::vector<physics::RayNodes>& rays)
 {
     std::vector<float> values(rays.size() * scene.sets() * 4, 0.F);
@@ -74,13 +66,12 @@ DirectRayData::DirectRayData(const Scene& scene, const std::vector<RayStart>& st
             const auto& node = k < nodeCount ? ray.nodes[k] : ray.ground;
             const double h = k < nodeCount ? node.altitude : 0;
             float* to = &rayNodes[(r * (nodeCount + 1) + k) * 8];
-            putNode(to, node, ray.hitsGround ? 1 : 0);
             const double horizon = physics::horizonElevation(scene.profile.planet(), h);
             const auto [row, fraction] = k < nodeCount ? scene.sun.row(h) : scene.sun.groundRow();
-            to[4] = static_cast<float>(horizon);
-            to[5] = static_cast<float>(1 / std::asinh((pi / 2 - horizon + scene.medium.sunAngularRadius) / scene.sun.elevationScale()));
-            to[6] = static_cast<float>(row);
-            to[7] = static_cast<float>(fraction);
+            const double range = std::asinh((pi / 2 - horizon + scene.medium.sunAngularRadius) / scene.sun.elevationScale());
+            const double values[8]{node.sunScale, node.nuScale, horizon, 1 / range,
+                                   double(row),   fraction,     node.mu, ray.hitsGround ? 1. : 0.};
+            std::copy(std::begin(values), std::end(values), to);
         }
         for (int k = 0; k < nodeCount; ++k)
             for (int i = 0; i < scatterers; ++i)
@@ -134,10 +125,9 @@ std::vector<float> stationTexels(const std::vector<Stations>& stations)
 {
     std::vector<float> values;
     for (const auto& s : stations)
-        for (const auto& place : s.places) {
-            values.resize(values.size() + 4);
-            putNode(&values[values.size() - 4], place, 0);
-        }
+        for (const auto& place : s.places)
+            values.insert(values.end(),
+                          {static_cast<float>(place.sunScale), static_cast<float>(place.nuScale), static_cast<float>(place.mu), 0.F});
     return values;
 }
 

@@ -44,9 +44,10 @@ std::vector<physics::RayNodes> traceRays(const Scene& scene, const std::vector<R
 /// Rays for the light of the first event, in main memory.
 struct DirectRayData {
     int count, nodes;
-    std::vector<float> rayNodes; ///< [ray][node + ground][8]: sunScale, nuScale, mu, hits ground; horizon, inverse range, row, fraction
-    std::vector<float> weights;  ///< [ray][node][scatterer][padded wavelength]
-    std::vector<float> ground;   ///< [ray][padded wavelength]: transmittance times albedo / pi
+    std::vector<float>
+        rayNodes; ///< [ray][node + ground][8]: sunScale, nuScale, horizon, inverse range; row, fraction, mu, hits ground (rays.glsl)
+    std::vector<float> weights; ///< [ray][node][scatterer][padded wavelength]
+    std::vector<float> ground;  ///< [ray][padded wavelength]: transmittance times albedo / pi
     /// \param field weights go with truncated phase functions (source iteration); otherwise with the exact ones, on which
     ///              optical depths stay scaled: the TMS correction (Nakajima & Tanaka 1988, J. Quant. Spectrosc. 40, 51)
     DirectRayData(const Scene& scene, const std::vector<RayStart>& starts, int nodes, bool field);

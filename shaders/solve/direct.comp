@@ -21,29 +21,29 @@ uniform int withPhase[SCATTERERS];
 uniform int resultOffsets[SCATTERERS + 1]; // in texels of the result buffer; the last for the ground
 #endif
 
-// Sunlight of the visible part of the disc; `place` is [horizon elevation, inverse range of the elevation axis, table row, fraction of a row].
-void sunlight(float visible, float above, vec4 place, out vec4 light[SETS])
+// Sunlight of the visible part of the disc; `place` is the row of the table and the fraction of a row.
+void sunlight(float visible, float above, float inverseRange, vec2 place, out vec4 light[SETS])
 {
     for (int q = 0; q < SETS; ++q)
         light[q] = vec4(0.0);
     if (visible <= 0.0)
         return;
-    float u = sunAxis(above, sunRadius, elevationScale, place.y) * float(elevations - 1);
+    float u = sunAxis(above, sunRadius, elevationScale, inverseRange) * float(elevations - 1);
     int k = min(int(u), elevations - 2);
     float x = u - float(k);
-    int near = (int(place.z) * elevations + k) * totalSets, far = near + elevations * totalSets;
+    int near = (int(place.x) * elevations + k) * totalSets, far = near + elevations * totalSets;
     for (int q = 0; q < SETS; ++q) {
         int set = setIndex(q);
         vec4 low = mix(texelFetch(sunDepths, near + set), texelFetch(sunDepths, near + totalSets + set), x);
         vec4 high = mix(texelFetch(sunDepths, far + set), texelFetch(sunDepths, far + totalSets + set), x);
-        light[q] = visible * exp(-mix(low, high, place.w));
+        light[q] = visible * exp(-mix(low, high, place.y));
     }
 }
 
 void main()
 {
     int first = (int(gl_GlobalInvocationID.y) + firstRay) * (nodes + 1) * 2;
-    Sample s = sampleOfInvocation(texelFetch(rayNodes, first).z);
+    Sample s = sampleOfInvocation(texelFetch(rayNodes, first + 1).z);
     if (!s.valid)
         return;
     vec4 lit[SCATTERERS * SETS];
@@ -51,12 +51,15 @@ void main()
         lit[i] = vec4(0.0);
     vec4 light[SETS];
 #ifndef GROUND_ONLY
-    float here = sunAbove(s, first), before = sunAbove(s, first + (nodes > 1 ? 2 : 0));
+    vec4 node = texelFetch(rayNodes, first);
+    float here = sunAbove(s, node), before = sunAbove(s, texelFetch(rayNodes, first + (nodes > 1 ? 2 : 0)));
     for (int k = 0; k < nodes; ++k) {
-        float after = k + 1 < nodes ? sunAbove(s, first + 2 * k + 2) : before;
-        sunlight(visibleAlong(before, here, after, sunRadius), here, texelFetch(rayNodes, first + 2 * k + 1), light);
+        vec4 next = texelFetch(rayNodes, first + 2 * k + 2);
+        float after = k + 1 < nodes ? sunAbove(s, next) : before;
+        sunlight(visibleAlong(before, here, after, sunRadius), here, node.w, texelFetch(rayNodes, first + 2 * k + 1).xy, light);
         before = here;
         here = after;
+        node = next;
         int w = (s.ray * nodes + k) * SCATTERERS * totalSets;
         for (int i = 0; i < SCATTERERS; ++i)
             for (int q = 0; q < SETS; ++q)
@@ -78,13 +81,12 @@ void main()
         scatter(i, one, s.nu, total);
 #endif
     }
-    vec4 node = texelFetch(rayNodes, first + 2 * nodes);
-    if (node.w > 0.0) {
-        float muSun = clamp(node.x * s.muSun + node.y * s.nu, -1.0, 1.0);
-        float elevation = elevationOf(muSun);
-        vec4 place = texelFetch(rayNodes, first + 2 * nodes + 1);
-        float above = elevation - place.x;
-        sunlight(visibleDiscFraction(above, sunRadius), above, place, light);
+    vec4 place = texelFetch(rayNodes, first + 2 * nodes + 1);
+    if (place.w > 0.0) {
+        vec4 there = texelFetch(rayNodes, first + 2 * nodes);
+        float muSun = clamp(there.x * s.muSun + there.y * s.nu, -1.0, 1.0);
+        float elevation = elevationOf(muSun), above = elevation - there.z;
+        sunlight(visibleDiscFraction(above, sunRadius), above, there.w, place.xy, light);
         float cosine = horizontalSunCosine(muSun, elevation, sunRadius);
         for (int q = 0; q < SETS; ++q)
             total[q] += texelFetch(ground, s.ray * totalSets + setIndex(q)) * cosine * light[q];

@@ -13,21 +13,24 @@ uniform int resultOffsets[SCATTERERS]; // in texels of the result buffer
 void main()
 {
     int first = (int(gl_GlobalInvocationID.y) + firstRay) * (nodes + 1) * 2;
-    Sample s = sampleOfInvocation(texelFetch(rayNodes, first).z);
+    Sample s = sampleOfInvocation(texelFetch(rayNodes, first + 1).z);
     if (!s.valid)
         return;
     vec4 radiance[SCATTERERS];
     for (int i = 0; i < SCATTERERS; ++i)
         radiance[i] = vec4(0.0);
-    float here = sunAbove(s, first), before = sunAbove(s, first + (nodes > 1 ? 2 : 0));
+    vec4 node = texelFetch(rayNodes, first);
+    float here = sunAbove(s, node), before = sunAbove(s, texelFetch(rayNodes, first + (nodes > 1 ? 2 : 0)));
     for (int k = 0; k < nodes; ++k) {
-        float after = k + 1 < nodes ? sunAbove(s, first + 2 * k + 2) : before, above = here;
+        vec4 next = texelFetch(rayNodes, first + 2 * k + 2); // behind the last node the ground, which nobody looks at
+        float after = k + 1 < nodes ? sunAbove(s, next) : before, above = here, inverseRange = node.w;
         float visible = visibleAlong(before, here, after, sunRadius);
         before = here;
         here = after;
+        node = next;
         if (visible <= 0.0)
             continue;
-        float u = sunAxis(above, sunRadius, elevationScale, texelFetch(rayNodes, first + 2 * k + 1).y) * float(elevations - 1);
+        float u = sunAxis(above, sunRadius, elevationScale, inverseRange) * float(elevations - 1);
         int e = min(int(u), elevations - 2);
         int at = ((int(gl_GlobalInvocationID.y) * nodes + k) * elevations + e) * SCATTERERS;
         for (int i = 0; i < SCATTERERS; ++i) {

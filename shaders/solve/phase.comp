@@ -10,7 +10,7 @@ layout(std430, binding = 1) readonly buffer Light { vec4 light[]; }; // [scatter
 void main()
 {
     int ray = int(gl_GlobalInvocationID.y) + firstRay;
-    Sample s = sampleOfInvocation(texelFetch(rayNodes, ray * (nodes + 1) * 2).z);
+    Sample s = sampleOfInvocation(texelFetch(rayNodes, ray * (nodes + 1) * 2 + 1).z);
     if (!s.valid)
         return;
     int item = int(gl_GlobalInvocationID.x), sun = item / azimuths, azimuth = item % azimuths;

@@ -9,6 +9,8 @@ int setIndex(int q) { return min(firstSet + q, totalSets - 1); }
 
 uniform samplerBuffer sunCosines;     // [suns], cosine of the Sun's zenith angle at the ray's start
 uniform samplerBuffer azimuthCosines; // [azimuths], cos(phi) from the Sun's azimuth
+// Of direct light [ray][node, then the ground]: sunScale, nuScale, elevation of the horizon (rad), inverse range of the elevation axis, then row of
+// the table of sunlight, fraction of a row, mu, hits the ground. Of scattered light [station]: sunScale, nuScale, mu.
 uniform samplerBuffer rayNodes;
 uniform int suns, azimuths, nodes, firstRay;
 uniform ivec3 strides; // of the result, in texels: ray, sun, azimuth
@@ -39,12 +41,8 @@ Sample sampleOfInvocation(float rayMu)
     return s;
 }
 
-// Elevation of the Sun's centre above the horizon of a node of the direct light, rad; `at` is the node's first texel.
-float sunAbove(Sample s, int at)
-{
-    vec4 node = texelFetch(rayNodes, at);
-    return elevationOf(clamp(node.x * s.muSun + node.y * s.nu, -1.0, 1.0)) - texelFetch(rayNodes, at + 1).x;
-}
+// Elevation of the Sun's centre above the horizon of a node of the direct light, rad; `node` is its first texel.
+float sunAbove(Sample s, vec4 node) { return elevationOf(clamp(node.x * s.muSun + node.y * s.nu, -1.0, 1.0)) - node.z; }
 
 // Spectral results: set q of a texel.
 void storeSet(int texel, int q, vec4 radiance)
