@@ -12,66 +12,79 @@ namespace sky::solver {
 namespace {
 
 constexpr double toLog2 = 1.44269504088896340736;
-
-/// The nodes of a ray in the air: Sun by Sun, since neighbouring nodes look at the same levels.
-///   coefficients  [node][lm][stride]
-///   target        [node][sun][1 + term][stride]
-SKY_WIDEST_VECTORS
-void foldNodes(const FoldField& field, const ScatteredRays::FoldNode* nodes, int nodeCount, int degree, int bentDegree, int azimuthal,
-               const float* coefficients, float* target)
-{
-    const int stride = field.stride, values = field.harmonics * stride;
-    for (int sun = 0; sun < field.suns; ++sun)
-        for (int k = 0; k < nodeCount; ++k) {
-            const float* levels[4];
-            for (int i = 0; i < 4; ++i)
-                levels[i] = &field.moments[(std::size_t(nodes[k].level[i]) * field.suns + sun) * values];
-            float* out = target + (k * field.suns + sun) * (azimuthal + 2) * stride;
-            if (stride == 16) // the usual number of wavelengths: loops that the compiler can unroll
-                physics::foldNode(levels, nodes[k].weight, nodes[k].between, coefficients + k * values, degree, bentDegree, azimuthal, 16,
-                                  out);
-            else
-                physics::foldNode(levels, nodes[k].weight, nodes[k].between, coefficients + k * values, degree, bentDegree, azimuthal,
-                                  stride, out);
-        }
-}
+/// What a thread folds at a time: half of a common second cache.
+constexpr std::size_t cachedFloats = std::size_t(1) << 18;
 
 /// X, Y, Z, scotopic: the compiler's vector type.
 using Four = float __attribute__((vector_size(16)));
 
-/// The same node as luminance: `source` is its [sun][1 + term][stride], `target` its [sun][1 + term][4].
-///   luminance  [wavelength][4]
-///   weights    scratch, [wavelength]
-SKY_WIDEST_VECTORS
-void toLuminance(const float* __restrict source, const float* __restrict luminance, int suns, int rows, int stride,
-                 Four* __restrict weights, float* __restrict target)
+/// One node under one Sun as luminance: `source` is its [1 + term][stride], `target` its [1 + term][4].
+///   means, weights  scratch, [wavelength]
+[[gnu::always_inline]] inline void toLuminance(const float* __restrict source, const Four* __restrict luminance, int rows, int stride,
+                                               float* __restrict means, Four* __restrict weights, float* __restrict target)
 {
-    for (int sun = 0; sun < suns; ++sun, source += rows * stride, target += rows * 4) {
-        Four level{};
-        for (int w = 0; w < stride; ++w) {
-            const float mean = base::exp2Lane(source[w]);
-            weights[w] =
-                Four{mean, mean, mean, mean} * Four{luminance[w * 4], luminance[w * 4 + 1], luminance[w * 4 + 2], luminance[w * 4 + 3]};
-            level += weights[w];
-        }
-        Four inverse{};
-        for (int c = 0; c < 4; ++c) {
-            const float sum = std::max(level[c], std::numeric_limits<float>::min());
-            target[c] = std::log2(sum);
-            inverse[c] = 1 / sum;
-        }
-        for (int m = 1; m < rows; ++m) {
-            const float* __restrict term = source + m * stride;
-            Four even{}, odd{}; // two sums, since one waits for itself; stride is a multiple of four
-            for (int w = 0; w < stride; w += 2) {
-                even += weights[w] * Four{term[w], term[w], term[w], term[w]};
-                odd += weights[w + 1] * Four{term[w + 1], term[w + 1], term[w + 1], term[w + 1]};
-            }
-            const Four sum = (even + odd) * inverse;
-            for (int c = 0; c < 4; ++c)
-                target[m * 4 + c] = sum[c];
-        }
+    for (int w = 0; w < stride; ++w)
+        means[w] = base::exp2Lane(source[w]);
+    Four level{};
+    for (int w = 0; w < stride; ++w) {
+        weights[w] = means[w] * luminance[w];
+        level += weights[w];
     }
+    Four inverse{};
+    for (int c = 0; c < 4; ++c) {
+        const float sum = std::max(level[c], std::numeric_limits<float>::min());
+        target[c] = base::log2Lane(sum);
+        inverse[c] = 1 / sum;
+    }
+    for (int m = 1; m < rows; ++m) {
+        const float* __restrict term = source + m * stride;
+        Four even{}, odd{}; // two sums, since one waits for itself; stride is a multiple of four
+        for (int w = 0; w < stride; w += 2) {
+            even += weights[w] * term[w];
+            odd += weights[w + 1] * term[w + 1];
+        }
+        const Four sum = (even + odd) * inverse;
+        for (int c = 0; c < 4; ++c)
+            target[m * 4 + c] = sum[c];
+    }
+}
+
+/// A node of a ray, waiting to be folded.
+struct Pending {
+    const ScatteredRays::FoldNode* place;
+    const float* coefficients; ///< [lm][stride]
+    float* target;             ///< [sun][1 + term][channel]
+};
+
+/// How deep and into what nodes are folded.
+struct FoldSettings {
+    int degree, bentDegree, azimuthal;
+    const Four* luminance; ///< [padded wavelength]; null: spectral
+};
+
+/// The nodes of several rays in the air: Sun by Sun, since they look at the same levels.
+SKY_WIDEST_VECTORS
+void foldNodes(const FoldField& field, const std::vector<Pending>& nodes, const FoldSettings& settings)
+{
+    const int stride = field.stride, rows = settings.azimuthal + 2;
+    const std::size_t values = std::size_t(field.harmonics) * stride;
+    base::VectorsOf<float> spectrum(std::size_t(rows) * stride), means(stride);
+    base::VectorsOf<Four> weights(stride);
+    for (int sun = 0; sun < field.suns; ++sun)
+        for (const Pending& node : nodes) {
+            const float* levels[4];
+            for (int i = 0; i < 4; ++i)
+                levels[i] = &field.moments[(std::size_t(node.place->level[i]) * field.suns + sun) * values];
+            float* const out = settings.luminance ? spectrum.data() : node.target + std::size_t(sun) * rows * stride;
+            if (stride == 16) // the usual number of wavelengths: loops that the compiler can unroll
+                physics::foldNode(levels, node.place->weight, node.place->between, node.coefficients, settings.degree, settings.bentDegree,
+                                  settings.azimuthal, 16, out);
+            else
+                physics::foldNode(levels, node.place->weight, node.place->between, node.coefficients, settings.degree, settings.bentDegree,
+                                  settings.azimuthal, stride, out);
+            if (settings.luminance)
+                toLuminance(out, settings.luminance, rows, stride, means.data(), weights.data(), node.target + std::size_t(sun) * rows * 4);
+        }
 }
 
 /// From the field's Suns to the fine ones: both [sun][values].
@@ -106,13 +119,19 @@ void foldDirections(const ScatteredRays& rays, std::size_t firstNode, int nodes,
 }
 
 /// What the ground throws into a ray: the same in all azimuths.
-///   to  [sun][1 + term][stride]
-void foldGround(const FoldField& field, const float* reflectance, int rows, float* to)
+///   target  [sun][1 + term][channel]
+void foldGround(const FoldField& field, const float* reflectance, int rows, const Four* luminance, float* target)
 {
-    for (int sun = 0; sun < field.suns; ++sun, to += rows * field.stride) {
-        std::fill_n(to, rows * field.stride, 0.F);
-        std::copy_n(&field.ground[std::size_t(sun) * field.stride], field.stride, to);
-        std::copy_n(reflectance, field.stride, to + field.stride);
+    const int stride = field.stride, channels = luminance ? 4 : stride;
+    base::VectorsOf<float> spectrum(std::size_t(rows) * stride, 0.F), means(stride);
+    base::VectorsOf<Four> weights(stride);
+    std::copy_n(reflectance, stride, &spectrum[stride]);
+    for (int sun = 0; sun < field.suns; ++sun, target += rows * channels) {
+        std::copy_n(&field.ground[std::size_t(sun) * stride], stride, spectrum.data());
+        if (luminance)
+            toLuminance(spectrum.data(), luminance, rows, stride, means.data(), weights.data(), target);
+        else
+            std::copy(spectrum.begin(), spectrum.end(), target);
     }
 }
 
@@ -178,54 +197,68 @@ void fold(const FoldField& field, const ScatteredRays& rays, const int first, co
           const std::vector<std::array<float, 4>>& luminance, float* const source)
 {
     const int rows = azimuthal + 2, stride = field.stride, channels = luminance.empty() ? stride : 4;
-    const std::size_t values = std::size_t(field.suns) * rows, fine = field.fineSuns.size() * rows * channels;
+    const std::size_t values = std::size_t(field.suns) * rows * channels, fine = field.fineSuns.size() * rows * channels;
+    const std::size_t perRay = (rays.nodes + 1) * values, coefficientsPerRay = std::size_t(rays.nodes) * field.harmonics * stride;
+    // As many rays together as leave room for the field's levels in the second cache.
+    const int together = static_cast<int>(std::clamp<std::size_t>(cachedFloats / (perRay + coefficientsPerRay), 1, 8));
+    base::VectorsOf<Four> colours;
+    for (const auto& [x, y, z, scotopic] : luminance)
+        colours.push_back(Four{x, y, z, scotopic});
+    const FoldSettings settings{rays.degree, rays.bentDegree, azimuthal, colours.empty() ? nullptr : colours.data()};
     base::parallel([&](int thread, int threads) {
-        std::vector<float> coefficients(std::size_t(rays.nodes) * field.harmonics * stride), spectral((rays.nodes + 1) * values * stride),
-            bright(luminance.empty() ? 0 : values * 4), means(channels), stations;
+        base::VectorsOf<float> coefficients(together * coefficientsPerRay), folded(together * perRay), means(channels), stations;
         std::vector<bool> sums; // of stations: not light of a single node
-        std::vector<Four> weights(stride);
-        for (int r = thread; r < count; r += threads) {
-            const std::size_t firstNode = std::size_t(first + r) * rays.nodes;
-            const Stations::Share* const shares = &rays.shares[std::size_t(first + r) * (rays.nodes + 1)];
-            int lit = rays.nodes;
-            while (lit > 0 && shares[lit - 1].seen == 0)
-                --lit;
-            foldDirections(rays, firstNode, lit, azimuthal, field.harmonics, stride, coefficients.data());
-            foldNodes(field, &rays.folds[firstNode], lit, rays.degree, rays.bentDegree, azimuthal, coefficients.data(), spectral.data());
-            if (shares[rays.nodes].seen > 0)
-                foldGround(field, &rays.ground[std::size_t(first + r) * stride], rows, &spectral[rays.nodes * values * stride]);
-            const int firstStation = rays.firstStation[first + r], stationCount = rays.firstStation[first + r + 1] - firstStation;
+        std::vector<Pending> pending;
+        const auto addStations = [&](int r, const float* nodes) {
+            const Stations::Share* const shares = &rays.shares[std::size_t(r) * (rays.nodes + 1)];
+            const int firstStation = rays.firstStation[r], stationCount = rays.firstStation[r + 1] - firstStation;
             const auto finish = [&](const float* station, int index) {
                 refine(station, field.fineSuns, rows * channels, source + (firstStation - rays.firstStation[first] + index) * fine);
             };
-            stations.assign(stationCount * values * channels, 0.F);
+            stations.assign(stationCount * values, 0.F);
             sums.assign(stationCount, true);
-            for (int k = 0; k <= rays.nodes; ++k) {
+            for (int k = 0; k <= rays.nodes; ++k, nodes += values) {
                 const auto& share = shares[k];
                 if (share.seen == 0)
                     continue;
-                const float* node = &spectral[k * values * stride];
-                if (!luminance.empty()) {
-                    toLuminance(node, luminance.data()->data(), field.suns, rows, stride, weights.data(), bright.data());
-                    node = bright.data();
-                }
                 if (share.alone) {
-                    finish(node, share.station);
+                    finish(nodes, share.station);
                     sums[share.station] = false;
                     continue;
                 }
-                float* const nearer = &stations[share.station * values * channels];
+                float* const nearer = &stations[share.station * values];
                 if (share.nearer > 0)
-                    addShare(node, field.suns, rows, channels, share.nearer, share.seen, means.data(), nearer);
+                    addShare(nodes, field.suns, rows, channels, share.nearer, share.seen, means.data(), nearer);
                 if (share.farther > 0)
-                    addShare(node, field.suns, rows, channels, share.farther, share.seen, means.data(), nearer + values * channels);
+                    addShare(nodes, field.suns, rows, channels, share.farther, share.seen, means.data(), nearer + values);
             }
             for (int i = 0; i < stationCount; ++i)
                 if (sums[i]) {
-                    float* const station = &stations[i * values * channels];
+                    float* const station = &stations[i * values];
                     toRatios(field.suns, rows, channels, means.data(), station);
                     finish(station, i);
                 }
+        };
+        for (int begin = first + thread * together; begin < first + count; begin += threads * together) {
+            const int end = std::min(begin + together, first + count);
+            pending.clear();
+            for (int r = begin; r < end; ++r) {
+                const Stations::Share* const shares = &rays.shares[std::size_t(r) * (rays.nodes + 1)];
+                const std::size_t firstNode = std::size_t(r) * rays.nodes;
+                float* const own = &coefficients[(r - begin) * coefficientsPerRay];
+                float* const target = &folded[(r - begin) * perRay];
+                int lit = rays.nodes;
+                while (lit > 0 && shares[lit - 1].seen == 0)
+                    --lit;
+                foldDirections(rays, firstNode, lit, azimuthal, field.harmonics, stride, own);
+                for (int k = 0; k < lit; ++k)
+                    pending.push_back({&rays.folds[firstNode + k], own + std::size_t(k) * field.harmonics * stride, target + k * values});
+                if (shares[rays.nodes].seen > 0)
+                    foldGround(field, &rays.ground[std::size_t(r) * stride], rows, settings.luminance, target + rays.nodes * values);
+            }
+            foldNodes(field, pending, settings);
+            for (int r = begin; r < end; ++r)
+                addStations(r, &folded[(r - begin) * perRay]);
         }
     });
 }

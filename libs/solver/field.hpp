@@ -1,4 +1,5 @@
 #pragma once
+#include "base/lanes.hpp"
 #include "solver/rays.hpp"
 #include <array>
 
@@ -9,7 +10,7 @@ struct FoldField {
     /// suns: of the moments' grid, and one beyond the zenith (Moments::withSunBeyondZenith)
     int suns = 0, harmonics = 0, stride = 0; ///< stride: padded wavelengths
     std::array<float, 3> sunAxis{};          ///< of the axis of Suns: a, sinh a, v of the lowest (physics::MomentGrid)
-    std::vector<float> moments;              ///< [altitude][sun][lm][wavelength]: log2 I_00, then I_lm / I_00
+    base::VectorsOf<float> moments;          ///< [altitude][sun][lm][wavelength]: log2 I_00, then I_lm / I_00
     std::vector<float> ground;               ///< [sun][wavelength]: log2 of the diffuse irradiance of the ground
     /// Where fine Suns stand among those of the grid: on a folded ray's axis of Suns the gather may interpolate linearly.
     std::vector<physics::Stencil> fineSuns;
