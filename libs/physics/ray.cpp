@@ -1,9 +1,34 @@
 #include "physics/ray.hpp"
+#include "base/lanes.hpp"
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 namespace sky::physics {
+
+namespace {
+
+/// Light of a part of a cell, shared out among the nodes on both its sides.
+///   column                         of one scatterer in the cell, m^-2; centre of its density, 0..1
+///   scattering, seen, shift        [wavelength]: cross-section, m^2; mean transmittance to the viewer; shift of the light's centre
+///   near, far                      [wavelength]: weights of the nodes, added to
+SKY_WIDEST_VECTORS
+void shareOut(const PartLight<double>& part, double column, double centreOfDensity, const double* __restrict scattering,
+              const double* __restrict seen, const double* __restrict shift, int wavelengths, double* __restrict near,
+              double* __restrict far)
+{
+    for (int w = 0; w < wavelengths; ++w) {
+        const double weight = column * scattering[w] * seen[w];
+        const double centre = std::clamp(centreOfDensity + shift[w], 0., 1.);
+        const double slope = std::clamp(6 * centre - 3, -1., 1.);
+        const auto light = part.of<double>({slope, centre - 0.5 - slope / 6});
+        const double beyond = std::clamp(light.far, 0., light.share);
+        near[w] += (light.share - beyond) * weight;
+        far[w] += beyond * weight;
+    }
+}
+
+} // namespace
 
 RayTracer::RayTracer(const Profile& profile, const Optics& optics, const double cellScale) : profile_(profile), optics_(optics)
 {
@@ -214,18 +239,9 @@ RayNodes RayTracer::trace(const double altitude, const double mu, const int coun
         const PartLight<double> partLight(part);
         for (int i = 0; i < scatterers; ++i) {
             const int c = part.cell, s = optics_.scatterers[i];
-            const double column = columns_[c * species + s];
-            double* near = &result.weights[(part.node * scatterers + i) * wavelengths];
-            double* far = near + scatterers * wavelengths;
-            for (int w = 0; w < wavelengths; ++w) {
-                const double weight = column * optics_.scattering[s * wavelengths + w] * seen[c * wavelengths + w];
-                const double centre = std::clamp(centres_[c * species + s] + shift[size_t(c) * wavelengths + w], 0., 1.);
-                const double slope = std::clamp(6 * centre - 3, -1., 1.);
-                const auto light = partLight.of<double>({slope, centre - 0.5 - slope / 6});
-                const double beyond = std::clamp(light.far, 0., light.share);
-                near[w] += (light.share - beyond) * weight;
-                far[w] += beyond * weight;
-            }
+            double* const near = &result.weights[(part.node * scatterers + i) * wavelengths];
+            shareOut(partLight, columns_[c * species + s], centres_[c * species + s], &optics_.scattering[s * wavelengths],
+                     &seen[c * wavelengths], &shift[size_t(c) * wavelengths], wavelengths, near, near + scatterers * wavelengths);
         }
     }
     result.hitsGround = hits;
