@@ -38,12 +38,11 @@ using Four = float __attribute__((vector_size(16)));
     }
     for (int m = 1; m < rows; ++m) {
         const float* __restrict term = source + m * stride;
-        Four even{}, odd{}; // two sums, since one waits for itself; stride is a multiple of four
-        for (int w = 0; w < stride; w += 2) {
-            even += weights[w] * term[w];
-            odd += weights[w + 1] * term[w + 1];
-        }
-        const Four sum = (even + odd) * inverse;
+        Four sums[4]{}; // one would wait for itself; stride is a multiple of four
+        for (int w = 0; w < stride; w += 4)
+            for (int k = 0; k < 4; ++k)
+                sums[k] += weights[w + k] * term[w + k];
+        const Four sum = ((sums[0] + sums[1]) + (sums[2] + sums[3])) * inverse;
         for (int c = 0; c < 4; ++c)
             target[m * 4 + c] = sum[c];
     }

@@ -33,13 +33,11 @@ void sumNode(const float* __restrict near, const float* __restrict far, float fr
             light[w] = base::exp2Lane(near[w] + fraction * (far[w] - near[w]));
         for (int i = 0; i < scatterers; i += 2) {
             const Channels* __restrict pair = weights + i / 2 * wavelengths;
-            Eight even{}, odd{}; // two sums, since one waits for itself
-            for (int w = 0; w < wavelengths; w += 2) {
-                const float a = light[w], b = light[w + 1];
-                even += pair[w].v * Eight{a, a, a, a, a, a, a, a};
-                odd += pair[w + 1].v * Eight{b, b, b, b, b, b, b, b};
-            }
-            const Channels sum{even + odd};
+            Eight sums[4]{}; // one would wait for itself; wavelengths are padded to a multiple of four
+            for (int w = 0; w < wavelengths; w += 4)
+                for (int k = 0; k < 4; ++k)
+                    sums[k] += pair[w + k].v * light[w + k];
+            const Channels sum{(sums[0] + sums[1]) + (sums[2] + sums[3])};
             std::memcpy(lit + i * 4, &sum, (i + 1 < scatterers ? 8 : 4) * sizeof(float));
         }
     }
@@ -65,11 +63,10 @@ LitGather::LitGather(const gl::Api& api, const Scene& scene, const std::vector<s
     : api_(api), scene_(scene),
       program_(gl::ProgramBuilder(api, shaders::source)
                    .compute("lit rays", "solve/lit.comp", {{"SCATTERERS", std::to_string(scene.scatterers())}, {"SETS", "1"}})),
-      phases_(api, "phase functions", phaseTexels(scene, false)), luminance_(luminanceTexels(scene, luminance)),
-      logTransmittance_(sunDepthTexels(scene))
+      phases_(api, "phase functions", phaseTexels(scene, false)), luminance_(luminanceTexels(scene, luminance))
 {
-    for (float& value : logTransmittance_)
-        value *= -toLog2;
+    for (const float depth : sunDepthTexels(scene))
+        logTransmittance_.push_back(-toLog2 * depth);
 }
 
 /// lit  [ray of this dispatch][node][elevation][scatterer][4], by levelAndColour, without visible part of the disc and phase
@@ -77,8 +74,8 @@ void LitGather::sumWavelengths(const DirectRayData& rays, int first, int count, 
 {
     const int elevations = scene_.sun.elevationCount(), wavelengths = scene_.sets() * 4, scatterers = scene_.scatterers();
     base::parallel([&](int thread, int threads) {
-        std::vector<Channels> channels(std::size_t(scatterers + 1) / 2 * wavelengths, Channels{});
-        std::vector<float> light(wavelengths), sums(std::size_t(elevations) * scatterers * 4);
+        base::VectorsOf<Channels> channels(std::size_t(scatterers + 1) / 2 * wavelengths, Channels{});
+        base::VectorsOf<float> light(wavelengths), sums(std::size_t(elevations) * scatterers * 4);
         for (int item = thread; item < count * rays.nodes; item += threads) {
             const int ray = first + item / rays.nodes, node = item % rays.nodes;
             const float* weights = &rays.weights[(std::size_t(ray) * rays.nodes + node) * scatterers * wavelengths];

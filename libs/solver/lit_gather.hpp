@@ -24,8 +24,8 @@ private:
     gl::Program program_;
     TexelBuffer phases_;
     std::vector<std::array<float, 4>> luminance_;
-    std::vector<float> logTransmittance_; // [altitude][elevation][padded wavelength], log2
-    std::optional<TexelBuffer> lit_;      // kept between calls: it is large
+    base::VectorsOf<float> logTransmittance_; // [altitude][elevation][padded wavelength], log2
+    std::optional<TexelBuffer> lit_;          // kept between calls: it is large
     std::size_t litTexels_ = 0;
 };
 
