@@ -59,6 +59,11 @@ void Buffer::rewrite(std::size_t count, const std::function<void(void*)>& fill)
 
 void Buffer::downloadTo(void* to, std::size_t count, std::size_t offset) const
 {
+    read(count, offset, [&](const void* from) { std::memcpy(to, from, count); });
+}
+
+void Buffer::read(std::size_t count, std::size_t offset, const std::function<void(const void*)>& use) const
+{
     checkRange(count, offset);
     if (count == 0)
         return;
@@ -68,7 +73,7 @@ void Buffer::downloadTo(void* to, std::size_t count, std::size_t offset) const
     const void* mapped =
         gl->MapBufferRange(GL_COPY_WRITE_BUFFER, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(count), GL_MAP_READ_BIT);
     if (mapped)
-        std::memcpy(to, mapped, count);
+        use(mapped);
     const bool intact = mapped && gl->UnmapBuffer(GL_COPY_WRITE_BUFFER);
     gl->BindBuffer(GL_COPY_WRITE_BUFFER, 0);
     if (!intact) {

@@ -37,6 +37,8 @@ public:
 
     /// Throws the content away and lets `fill` write the first `count` bytes in place: no copy where the driver shares memory.
     void rewrite(std::size_t count, const std::function<void(void*)>& fill);
+    /// Waits for the GPU and shows `use` its `count` bytes from `offset` on: no copy where the driver shares memory.
+    void read(std::size_t count, std::size_t offset, const std::function<void(const void*)>& use) const;
     /// Waits for the GPU and copies `count` bytes from `offset` on to `to`.
     void downloadTo(void* to, std::size_t count, std::size_t offset = 0) const;
     /// Waits for the GPU and returns the whole content.

@@ -44,13 +44,16 @@ struct Layer {
     }
     std::size_t texels(int viewCount) const { return std::size_t(viewCount) * suns * azimuths; }
     Strides strides(int viewCount) const { return {azimuths, viewCount * azimuths, 1}; }
-    /// Puts a group, [sun][view of the group][azimuth][floats], in its place.
-    void place(const float* group, int first, int count, std::size_t floats, std::vector<float>& layer) const
+    /// Puts a group, [sun][view of the group][azimuth][floats] from float `at` of the results on, in its place.
+    void place(const gl::Buffer& results, std::size_t at, int first, int count, std::size_t floats, std::vector<float>& layer) const
     {
         layer.resize(texels(views) * floats);
         const std::size_t run = std::size_t(count) * azimuths * floats;
-        for (int sun = 0; sun < suns; ++sun)
-            std::copy_n(group + sun * run, run, &layer[(std::size_t(sun) * views + first) * azimuths * floats]);
+        results.read(suns * run * sizeof(float), at * sizeof(float), [&](const void* group) {
+            for (int sun = 0; sun < suns; ++sun)
+                std::copy_n(static_cast<const float*>(group) + sun * run, run,
+                            &layer[(std::size_t(sun) * views + first) * azimuths * floats]);
+        });
     }
 };
 
@@ -178,11 +181,11 @@ void bakeSingleScattering(const gl::Api& api, const BakeJob& job, model::ModelWr
             const DirectRayData rays(job.scene, viewsFrom(job, altitudes[layer], first, count),
                                      job.settings.directNodesFor(job.size.sunZenithAngle), false);
             const auto place = [&](Way way) {
-                const auto values = results.download();
-                const std::size_t floats = way == Way::spectra ? std::size_t(job.scene.sets()) * 4 : 4;
+                const std::size_t floats = way == Way::spectra ? std::size_t(job.scene.sets()) * 4 : 4,
+                                  block = shape.texels(count) * floats;
                 for (int i = 0; i < scatterers; ++i)
                     if (ways[i] == way)
-                        shape.place(&values[i * shape.texels(count) * floats], first, count, floats, layers[i]);
+                        shape.place(results, i * block, first, count, floats, layers[i]);
             };
             if (luminance) {
                 luminance->gather(rays, samples, shape.strides(count), withPhase, results, fraction);
@@ -244,7 +247,7 @@ void gatherMultipleScattering(const gl::Api& api, const BakeJob& job, const phys
                                      {job.settings.nodes, job.settings.stationTolerance, false});
             gather.gather(rays, fine, rays.degree, samples, shape.strides(count), results,
                           [&] { breath(double(layer) / double(altitudes.size())); });
-            shape.place(results.download().data(), first, count, floats, values);
+            shape.place(results, 0, first, count, floats, values);
         }
         use(static_cast<int>(layer), std::exchange(values, {}));
     }

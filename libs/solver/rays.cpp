@@ -60,7 +60,7 @@ DirectRayData::DirectRayData(const Scene& scene, const std::vector<RayStart>& st
     const int sets = scene.sets(), scatterers = scene.scatterers(), wavelengths = scene.optics.wavelengths;
     rayNodes.resize(rays.size() * (nodeCount + 1) * 8);
     weights.resize(rays.size() * nodeCount * scatterers * sets * 4);
-    for (std::size_t r = 0; r < rays.size(); ++r) {
+    const auto pack = [&](std::size_t r) {
         const auto& ray = rays[r];
         for (int k = 0; k <= nodeCount; ++k) {
             const auto& node = k < nodeCount ? ray.nodes[k] : ray.ground;
@@ -79,7 +79,11 @@ DirectRayData::DirectRayData(const Scene& scene, const std::vector<RayStart>& st
                     weights[((r * nodeCount + k) * scatterers + i) * sets * 4 + w] =
                         static_cast<float>(ray.weights[(k * scatterers + i) * wavelengths + w] /
                                            (field ? 1 : 1 - scene.optics.truncation[scene.optics.scatterers[i] * wavelengths + w]));
-    }
+    };
+    base::parallel([&](int thread, int threads) {
+        for (std::size_t r = thread; r < rays.size(); r += threads)
+            pack(r);
+    });
     ground = groundTexels(scene, rays);
 }
 
