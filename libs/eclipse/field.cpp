@@ -2,6 +2,7 @@
 #include "base/angles.hpp"
 #include "base/parallel.hpp"
 #include "eclipse/state.hpp"
+#include "physics/harmonics.hpp"
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -30,11 +31,13 @@ void spread(int count, Work&& work)
 
 /// Memory of one task.
 struct Scratch {
-    Lanes planes;  // [azimuth][point]: light that leaves points towards the viewer; mixed sunlight
+    Lanes planes;  // [azimuth][point]: light that leaves points towards the viewer; [scatterer][point]: mixed sunlight
     Lanes light;   // [azimuth][scatterer][point]
     Lanes arrived; // [azimuth][point]
     Lanes row;
-    std::vector<Shift> shifts; // [node, then ground][azimuth]: of one ray
+    std::vector<Shifts> shifts;      // [station, then ground]: of one ray
+    std::vector<const Lane*> levels; // of sunlight, of a station
+    Seen seen;                       // of a station
     std::vector<float> nu;
 };
 
@@ -42,9 +45,12 @@ ScatteredField::State::State(std::shared_ptr<const AirRays> rays, const physics:
                              const Orders& orders_, SunlightLeft left)
     : air(std::move(rays)), sun(sun_), orders(orders_), sunlightLeft(std::move(left)), frame(bodies),
       grid(makeGrid(frame, air->settings)), fine{grid.x.refined(std::max(1, air->settings.sunlightRefinement)),
-                                                 grid.y.refined(std::max(1, air->settings.sunlightRefinement))},
-      turn(air->settings.azimuths, air->degree)
+                                                 grid.y.refined(std::max(1, air->settings.sunlightRefinement))}
 {
+    // The fewer waves, the fewer azimuths tell them apart.
+    for (int degree = air->degree; turns.empty() || degree >= air->settings.leastDegree; --degree)
+        turns.emplace_back(std::min(air->settings.azimuths, (2 * degree + 4) / 4 * 4), degree);
+    turns.front() = Turn(air->settings.azimuths, air->degree);
     if (!sunlightLeft) {
         const auto shadow = physics::singlePrecision(physics::makeShadow(bodies));
         sunlightLeft = [shadow](const std::array<float, 3>& point) { return shadow.visibleSun(point); };
@@ -111,28 +117,44 @@ void ScatteredField::State::shine()
     lit = true;
 }
 
+void ScatteredField::State::addGround(const GridRay& ray, int group, const Grid& source, const Lane* irradiance, Scratch& scratch) const
+{
+    // It looks the same from all sides.
+    const Lane* ground = irradiance;
+    scratch.planes.resize(std::max(scratch.planes.size(), static_cast<std::size_t>(source.points())));
+    mix(&ground, 1, &ray.ground[static_cast<std::size_t>(group)], 1, source.points(), scratch.planes.data());
+    for (int a = 0; a < turn().count; ++a)
+        addShifted(scratch.shifts.back(), a, source.x.count(), scratch.planes.data(), scratch.planes.data(), scratch.row.data(),
+                   &scratch.arrived[static_cast<std::size_t>(a * grid.points())]);
+}
+
 void ScatteredField::State::directRay(const GridRay& ray, int group, Scratch& scratch) const
 {
-    const int gridPoints = grid.points(), finePoints = fine.points(), azimuths = turn.count, scatterers = air->scatterers;
-    const int nodes = static_cast<int>(ray.direct.size());
+    const int gridPoints = grid.points(), finePoints = fine.points(), azimuths = turn().count, scatterers = air->scatterers;
+    const int entries = static_cast<int>(ray.direct.levels.size());
     const auto g = static_cast<std::size_t>(group);
     const Lane* levels = &sunlight[g * static_cast<std::size_t>(air->sunlightLevels.count() * finePoints)];
-    scratch.planes.resize(static_cast<std::size_t>(finePoints));
+    scratch.planes.resize(static_cast<std::size_t>(scatterers * finePoints));
     scratch.light.assign(static_cast<std::size_t>(scatterers * azimuths * gridPoints), Lane{});
-    for (int k = 0; k < nodes; ++k) {
-        const Place& place = ray.direct[static_cast<std::size_t>(k)];
-        const Lane* lower = levels + place.level * finePoints;
-        mix(lower, lower + finePoints, place.share, finePoints, scratch.planes.data());
+    for (std::size_t k = 0; k < ray.direct.stations.size(); ++k) {
+        const Station& station = ray.direct.stations[k];
+        scratch.levels.clear();
+        for (int e = 0; e < station.count; ++e)
+            scratch.levels.push_back(levels + ray.direct.levels[static_cast<std::size_t>(station.first + e)] * finePoints);
+        mix(scratch.levels.data(), station.count,
+            &ray.directWeights[static_cast<std::size_t>((group * entries + station.first) * scatterers)], scatterers, finePoints,
+            scratch.planes.data());
         for (int a = 0; a < azimuths; ++a)
-            addShifted(scratch.shifts[static_cast<std::size_t>(k * azimuths + a)], fine.x.count(), scratch.planes.data(),
-                       scratch.planes.data(), &ray.directWeights[static_cast<std::size_t>((group * nodes + k) * scatterers)], scatterers,
-                       scratch.row.data(), &scratch.light[static_cast<std::size_t>(a * scatterers * gridPoints)]);
+            for (int s = 0; s < scatterers; ++s)
+                addShifted(scratch.shifts[k], a, fine.x.count(), &scratch.planes[static_cast<std::size_t>(s * finePoints)],
+                           &scratch.planes[static_cast<std::size_t>(s * finePoints)], scratch.row.data(),
+                           &scratch.light[static_cast<std::size_t>((a * scatterers + s) * gridPoints)]);
     }
     const Lane* phase = &air->phase[g * static_cast<std::size_t>(scatterers * (air->degree + 1))];
     const float sine = std::sqrt(std::max(0.f, 1 - ray.mu * ray.mu));
     scratch.nu.resize(points());
     for (int a = 0; a < azimuths; ++a) {
-        const auto c = static_cast<float>(std::cos(turn.azimuth(a))), s = static_cast<float>(std::sin(turn.azimuth(a)));
+        const auto c = static_cast<float>(std::cos(turn().azimuth(a))), s = static_cast<float>(std::sin(turn().azimuth(a)));
         for (std::size_t p = 0; p < points(); ++p)
             scratch.nu[p] = std::clamp(ray.mu * static_cast<float>(sunAt[p][2]) +
                                            sine * (c * static_cast<float>(sunAt[p][0]) + s * static_cast<float>(sunAt[p][1])),
@@ -140,56 +162,47 @@ void ScatteredField::State::directRay(const GridRay& ray, int group, Scratch& sc
         scatterSunlight(air->degree, scatterers, phase, scratch.nu.data(),
                         &scratch.light[static_cast<std::size_t>(a * scatterers * gridPoints)], gridPoints,
                         &scratch.arrived[static_cast<std::size_t>(a * gridPoints)]);
-        if (ray.hitsGround) {
-            const Lane* ground = &sunnyGround[g * static_cast<std::size_t>(finePoints)];
-            addShifted(scratch.shifts[static_cast<std::size_t>(nodes * azimuths + a)], fine.x.count(), ground, ground, &ray.ground[g], 1,
-                       scratch.row.data(), &scratch.arrived[static_cast<std::size_t>(a * gridPoints)]);
-        }
     }
+    if (ray.hitsGround)
+        addGround(ray, group, fine, &sunnyGround[g * static_cast<std::size_t>(finePoints)], scratch);
 }
 
 void ScatteredField::State::scatteredRay(const GridRay& ray, int group, Scratch& scratch) const
 {
-    const int gridPoints = grid.points(), azimuths = turn.count, nodes = static_cast<int>(ray.scattered.size());
-    const int terms = (air->degree + 1) * (air->degree + 2) / 2;
+    const int gridPoints = grid.points(), azimuths = turn().count, entries = static_cast<int>(ray.scattered.levels.size());
+    scratch.seen.degree = last.degree;
+    scratch.seen.terms = physics::harmonicCount(air->degree);
     scratch.planes.resize(static_cast<std::size_t>(azimuths * gridPoints));
     std::fill(scratch.arrived.begin(), scratch.arrived.end(), Lane{});
-    const auto addPlanes = [&](int node, const Lane* planes, const Lane* weights) {
-        for (int a = 0; a < azimuths; ++a) {
-            const int step = weights ? 0 : gridPoints; // the ground looks the same from all sides
-            addShifted(scratch.shifts[static_cast<std::size_t>(node * azimuths + a)], grid.x.count(), planes + a * step,
-                       planes + turn.mirror(a) * step, weights, 1, scratch.row.data(),
+    for (std::size_t k = 0; k < ray.scattered.stations.size(); ++k) {
+        const Station& station = ray.scattered.stations[k];
+        scratch.seen.levels.clear();
+        for (int e = 0; e < station.count; ++e)
+            scratch.seen.levels.push_back(momentsAt(last, group, ray.scattered.levels[static_cast<std::size_t>(station.first + e)]));
+        scratch.seen.coefficients = &ray.coefficients[static_cast<std::size_t>((group * entries + station.first) * scratch.seen.terms)];
+        radiate(turn(), scratch.seen, gridPoints, scratch.planes.data());
+        for (int a = 0; a < azimuths; ++a)
+            addShifted(scratch.shifts[k], a, grid.x.count(), &scratch.planes[static_cast<std::size_t>(a * gridPoints)],
+                       &scratch.planes[static_cast<std::size_t>(turn().mirror(a) * gridPoints)], scratch.row.data(),
                        &scratch.arrived[static_cast<std::size_t>(a * gridPoints)]);
-        }
-    };
-    for (int k = 0; k < nodes; ++k) {
-        const Place& place = ray.scattered[static_cast<std::size_t>(k)];
-        radiate(turn, momentsAt(last, group, place.level), momentsAt(last, group, place.level + 1), place.share,
-                &ray.coefficients[static_cast<std::size_t>((group * nodes + k) * terms)], gridPoints, scratch.planes.data());
-        addPlanes(k, scratch.planes.data(), nullptr);
     }
     if (ray.hitsGround)
-        addPlanes(nodes, &last.irradiance[static_cast<std::size_t>(group) * points()], &ray.ground[static_cast<std::size_t>(group)]);
+        addGround(ray, group, grid, &last.irradiance[static_cast<std::size_t>(group) * points()], scratch);
 }
 
 void ScatteredField::State::gatherLevel(int level, Light& light) const
 {
     Scratch scratch;
     scratch.row.resize(static_cast<std::size_t>(fine.x.count()));
-    scratch.arrived.resize(static_cast<std::size_t>(turn.count) * points());
+    scratch.arrived.resize(static_cast<std::size_t>(turn().count) * points());
     const bool direct = events == 0;
     const Grid& source = direct ? fine : grid;
     for (const GridRay& ray : air->rays[static_cast<std::size_t>(level)]) {
         scratch.shifts.clear();
-        const auto shiftTo = [&](float distance) {
-            for (int a = 0; a < turn.count; ++a)
-                scratch.shifts.emplace_back(source, grid, distance * static_cast<float>(std::cos(turn.azimuth(a))),
-                                            distance * static_cast<float>(std::sin(turn.azimuth(a))));
-        };
-        for (const Place& place : direct ? ray.direct : ray.scattered)
-            shiftTo(place.distance);
+        for (const Station& station : (direct ? ray.direct : ray.scattered).stations)
+            scratch.shifts.emplace_back(source, grid, turn(), station.distance);
         if (ray.hitsGround)
-            shiftTo(ray.groundDistance);
+            scratch.shifts.emplace_back(source, grid, turn(), ray.groundDistance);
         for (int g = 0; g < air->groups; ++g) {
             if (direct)
                 directRay(ray, g, scratch);
@@ -197,16 +210,17 @@ void ScatteredField::State::gatherLevel(int level, Light& light) const
                 scatteredRay(ray, g, scratch);
             const auto group = static_cast<std::size_t>(g);
             Lane* irradiance = level == 0 && ray.mu > 0 ? &light.irradiance[group * points()] : nullptr;
-            project(turn, scratch.arrived.data(), ray.factors.data(), 2 * pi * ray.weight, grid.points(),
-                    &light.moments[(group * levels() + static_cast<std::size_t>(level)) * points() * harmonics()], irradiance, ray.mu);
+            project(turn(), scratch.arrived.data(), ray.factors.data(), 2 * pi * ray.weight, grid.points(),
+                    &light.moments[(group * levels() + static_cast<std::size_t>(level)) * points() * light.harmonics()], irradiance,
+                    ray.mu);
         }
     }
 }
 
 Light ScatteredField::State::gather() const
 {
-    const auto groups = static_cast<std::size_t>(air->groups);
-    Light light{Lanes(groups * levels() * points() * harmonics(), Lane{}), Lanes(groups * points(), Lane{})};
+    const auto groups = static_cast<std::size_t>(air->groups), harmonics = static_cast<std::size_t>(allHarmonics(turn().degree));
+    Light light{turn().degree, Lanes(groups * levels() * points() * harmonics, Lane{}), Lanes(groups * points(), Lane{})};
     spread(air->levels.count(), [&](int level) { gatherLevel(level, light); });
     return light;
 }
@@ -217,8 +231,9 @@ void ScatteredField::State::add(const Light& light)
         total = light;
         return;
     }
-    for (std::size_t i = 0; i < light.moments.size(); ++i)
-        total.moments[i] += light.moments[i];
+    for (std::size_t i = 0, k = 0; i < light.moments.size(); i += light.harmonics(), k += total.harmonics())
+        for (std::size_t h = 0; h < light.harmonics(); ++h)
+            total.moments[k + h] += light.moments[i + h];
     for (std::size_t i = 0; i < light.irradiance.size(); ++i)
         total.irradiance[i] += light.irradiance[i];
 }
@@ -233,12 +248,14 @@ bool ScatteredField::State::known()
 void ScatteredField::State::close()
 {
     // The tail has the shape of the last event in all harmonics.
-    for (std::size_t i = 0; i < total.moments.size(); i += harmonics())
+    for (std::size_t point = 0; point < last.moments.size() / last.harmonics(); ++point) {
+        const Lane *ours = &last.moments[point * last.harmonics()], *earlier = &before.moments[point * before.harmonics()];
         for (int w = 0; w < lanes; ++w) {
-            const float tail = tailOf(last.moments[i][w], before.moments[i][w]);
-            for (std::size_t k = i; k < i + harmonics(); ++k)
-                total.moments[k][w] += tail * last.moments[k][w];
+            const float tail = tailOf((*ours)[w], (*earlier)[w]);
+            for (std::size_t h = 0; h < last.harmonics(); ++h)
+                total.moments[point * total.harmonics() + h][w] += tail * ours[h][w];
         }
+    }
     for (std::size_t i = 0; i < total.irradiance.size(); ++i)
         for (int w = 0; w < lanes; ++w)
             total.irradiance[i][w] += tailOf(last.irradiance[i][w], before.irradiance[i][w]) * last.irradiance[i][w];

@@ -12,28 +12,28 @@ namespace sky::eclipse {
 
 namespace {
 
-constexpr int cosineIndex(int l, int m) { return l * (l + 1) / 2 + m; }
-constexpr int sineIndex(int degree, int l, int m) { return (degree + 1) * (degree + 2) / 2 + l * (l - 1) / 2 + m - 1; }
+constexpr int termIndex(int l, int m) { return l * (l + 1) / 2 + m; }
+constexpr int cosineIndex(int l, int m) { return l * l + std::max(0, 2 * m - 1); }
+constexpr int sineIndex(int l, int m) { return l * l + 2 * m; }
 
 template<int degree>
-SKY_INLINE void radiateDegree(const float* cosines, const float* sines, int azimuths, const Lane* lower, const Lane* upper, float share,
-                              const Lane* coefficients, int points, Lane* planes)
+SKY_INLINE void radiateDegree(const float* cosines, const float* sines, int azimuths, const Seen& seen, int points, Lane* planes)
 {
+    const int count = static_cast<int>(seen.levels.size()), harmonics = allHarmonics(seen.degree);
     for (int p = 0; p < points; ++p) {
-        const Lane *a = lower + p * allHarmonics(degree), *b = upper + p * allHarmonics(degree);
         Lane even[degree + 1], odd[degree + 1]; // factors of cos(m phi), sin(m phi)
         for (int m = 0; m <= degree; ++m)
             even[m] = odd[m] = Lane{};
-        for (int l = 0; l <= degree; ++l)
-            for (int m = 0; m <= l; ++m) {
-                const Lane c = coefficients[cosineIndex(l, m)];
-                const int i = cosineIndex(l, m);
-                even[m] += c * (a[i] + share * (b[i] - a[i]));
-                if (m > 0) {
-                    const int k = sineIndex(degree, l, m);
-                    odd[m] += c * (a[k] + share * (b[k] - a[k]));
+        for (int e = 0; e < count; ++e) {
+            const Lane *here = seen.levels[static_cast<std::size_t>(e)] + p * harmonics, *factors = seen.coefficients + e * seen.terms;
+            for (int l = 0; l <= degree; ++l)
+                for (int m = 0; m <= l; ++m) {
+                    const Lane c = factors[termIndex(l, m)];
+                    even[m] += c * here[cosineIndex(l, m)];
+                    if (m > 0)
+                        odd[m] += c * here[sineIndex(l, m)];
                 }
-            }
+        }
         for (int q = 0; q < azimuths / 4; ++q) {
             const float *cosine = cosines + q * (degree + 1), *sine = sines + q * (degree + 1);
             Lane c[2] = {even[0], Lane{}}, s[2] = {Lane{}, Lane{}}; // even and odd m
@@ -72,10 +72,10 @@ SKY_INLINE void projectDegree(const float* cosines, const float* sines, int azim
         Lane* out = moments + p * allHarmonics(degree);
         for (int l = 0; l <= degree; ++l)
             for (int m = 0; m <= l; ++m) {
-                const float y = solidAngle * factors[cosineIndex(l, m)];
+                const float y = solidAngle * factors[termIndex(l, m)];
                 out[cosineIndex(l, m)] += y * even[m];
                 if (m > 0)
-                    out[sineIndex(degree, l, m)] += y * odd[m];
+                    out[sineIndex(l, m)] += y * odd[m];
             }
         if (rings)
             rings[p] += (solidAngle * cosine) * even[0];
@@ -85,17 +85,17 @@ SKY_INLINE void projectDegree(const float* cosines, const float* sines, int azim
 } // namespace
 
 SKY_WIDEST_VECTORS
-void radiate(const Turn& turn, const Lane* lower, const Lane* upper, float share, const Lane* coefficients, int points, Lane* planes)
+void radiate(const Turn& turn, const Seen& seen, int points, Lane* planes)
 {
     const float *c = turn.cosines.data(), *s = turn.sines.data();
     switch (turn.degree) {
-    case 0: return radiateDegree<0>(c, s, turn.count, lower, upper, share, coefficients, points, planes);
-    case 1: return radiateDegree<1>(c, s, turn.count, lower, upper, share, coefficients, points, planes);
-    case 2: return radiateDegree<2>(c, s, turn.count, lower, upper, share, coefficients, points, planes);
-    case 3: return radiateDegree<3>(c, s, turn.count, lower, upper, share, coefficients, points, planes);
-    case 4: return radiateDegree<4>(c, s, turn.count, lower, upper, share, coefficients, points, planes);
-    case 5: return radiateDegree<5>(c, s, turn.count, lower, upper, share, coefficients, points, planes);
-    default: return radiateDegree<mostDegree>(c, s, turn.count, lower, upper, share, coefficients, points, planes);
+    case 0: return radiateDegree<0>(c, s, turn.count, seen, points, planes);
+    case 1: return radiateDegree<1>(c, s, turn.count, seen, points, planes);
+    case 2: return radiateDegree<2>(c, s, turn.count, seen, points, planes);
+    case 3: return radiateDegree<3>(c, s, turn.count, seen, points, planes);
+    case 4: return radiateDegree<4>(c, s, turn.count, seen, points, planes);
+    case 5: return radiateDegree<5>(c, s, turn.count, seen, points, planes);
+    default: return radiateDegree<mostDegree>(c, s, turn.count, seen, points, planes);
     }
 }
 
@@ -115,23 +115,37 @@ void project(const Turn& turn, const Lane* planes, const float* factors, float w
     }
 }
 
-Shift::Shift(const Grid& from, const Grid& to, const float x, const float y)
+Shifts::Shifts(const Grid& from, const Grid& to, const Turn& turn, const float distance)
+    : azimuths_(turn.count), columns_(to.x.count()), rows_(to.y.count())
 {
-    along.reserve(to.x.points().size());
-    across.reserve(to.y.points().size());
-    for (const float point : to.x.points())
-        along.push_back(from.x.at(point + x));
-    for (const float point : to.y.points())
-        across.push_back(from.y.at(point + y));
+    const auto half = static_cast<std::size_t>(azimuths_ / 2);
+    along_.reserve(half * static_cast<std::size_t>(columns_));
+    across_.reserve(half * static_cast<std::size_t>(rows_));
+    for (int i = 0; i < azimuths_ / 2; ++i) {
+        const float x = distance * static_cast<float>(std::cos(turn.azimuth(i)));
+        for (const float point : to.x.points())
+            along_.push_back(from.x.at(point + x));
+    }
+    for (const int side : {1, -1})
+        for (int q = 0; q < azimuths_ / 4; ++q) {
+            const float y = static_cast<float>(side) * distance * static_cast<float>(std::sin(turn.azimuth(q)));
+            for (const float point : to.y.points())
+                across_.push_back(from.y.at(point + y));
+        }
+}
+
+const Neighbours* Shifts::across(const int azimuth) const
+{
+    // The sines of t, pi - t; of pi + t, -t.
+    const int half = azimuths_ / 2, inHalf = azimuth % half, q = std::min(inHalf, half - 1 - inHalf);
+    return &across_[static_cast<std::size_t>((azimuth / half * (half / 2) + q) * rows_)];
 }
 
 SKY_WIDEST_VECTORS
-void addShifted(const Shift& shift, int sourceAlong, const Lane* plane, const Lane* mirror, const Lane* weights, int addends, Lane* row,
-                Lane* sums)
+void addShifted(const Shifts& shifts, int azimuth, int sourceAlong, const Lane* plane, const Lane* mirror, Lane* row, Lane* sums)
 {
-    const Neighbours* across = shift.across.data();
-    const Neighbours* along = shift.along.data();
-    const int columns = static_cast<int>(shift.along.size()), rows = static_cast<int>(shift.across.size());
+    const Neighbours *across = shifts.across(azimuth), *along = shifts.along(azimuth);
+    const int columns = shifts.columns(), rows = shifts.rows();
     const int first = along[0].index[0], last = along[columns - 1].index[3];
     for (int j = 0; j < rows; ++j) {
         const Neighbours& n = across[j];
@@ -139,18 +153,14 @@ void addShifted(const Shift& shift, int sourceAlong, const Lane* plane, const La
         const Lane* line[4];
         for (int k = 0; k < 4; ++k)
             line[k] = n.index[k] < 0 ? other - n.index[k] * sourceAlong : own + n.index[k] * sourceAlong;
+        const float w0 = n.weight[0], w1 = n.weight[1], w2 = n.weight[2], w3 = n.weight[3];
         for (int i = first; i <= last; ++i)
-            row[i] = n.weight[0] * line[0][i] + n.weight[1] * line[1][i] + n.weight[2] * line[2][i] + n.weight[3] * line[3][i];
+            row[i] = w0 * line[0][i] + w1 * line[1][i] + w2 * line[2][i] + w3 * line[3][i];
         Lane* out = sums + j * columns;
         for (int i = 0; i < columns; ++i) {
             const Neighbours& m = along[i];
-            const Lane value = m.weight[0] * row[m.index[0]] + m.weight[1] * row[m.index[1]] + m.weight[2] * row[m.index[2]] +
-                               m.weight[3] * row[m.index[3]];
-            if (!weights)
-                out[i] += value;
-            else
-                for (int s = 0; s < addends; ++s)
-                    out[s * rows * columns + i] += weights[s] * value;
+            out[i] += m.weight[0] * row[m.index[0]] + m.weight[1] * row[m.index[1]] + m.weight[2] * row[m.index[2]] +
+                      m.weight[3] * row[m.index[3]];
         }
     }
 }
@@ -162,10 +172,11 @@ void foldPoint(int degree, const Lane* lower, const Lane* upper, float share, co
         terms[k] = Lane{};
     for (int l = 0; l <= degree; ++l)
         for (int m = 0; m <= l; ++m) {
-            const int i = cosineIndex(l, m), k = sineIndex(degree, l, m);
-            terms[m] += coefficients[i] * (lower[i] + share * (upper[i] - lower[i]));
+            const int i = cosineIndex(l, m), k = sineIndex(l, m);
+            const Lane c = coefficients[termIndex(l, m)];
+            terms[m] += c * (lower[i] + share * (upper[i] - lower[i]));
             if (m > 0)
-                terms[degree + m] += coefficients[i] * (lower[k] + share * (upper[k] - lower[k]));
+                terms[degree + m] += c * (lower[k] + share * (upper[k] - lower[k]));
         }
 }
 
@@ -187,10 +198,17 @@ void addFolded(int degree, int count, const Lane* const* terms, const float* wei
 }
 
 SKY_WIDEST_VECTORS
-void mix(const Lane* lower, const Lane* upper, float share, int points, Lane* result)
+void mix(const Lane* const* levels, int count, const Lane* weights, int planeCount, int points, Lane* planes)
 {
-    for (int p = 0; p < points; ++p)
-        result[p] = lower[p] + share * (upper[p] - lower[p]);
+    for (int s = 0; s < planeCount; ++s) {
+        Lane* plane = planes + s * points;
+        for (int p = 0; p < points; ++p) {
+            Lane sum{};
+            for (int e = 0; e < count; ++e)
+                sum += weights[e * planeCount + s] * levels[e][p];
+            plane[p] = sum;
+        }
+    }
 }
 
 SKY_WIDEST_VECTORS

@@ -72,7 +72,8 @@ std::vector<double> sunlightAltitudes(const physics::Planet& planet, const Level
 /// they tell nothing.
 physics::RayNodes withoutHidden(const physics::RayNodes& ray, std::size_t scatterers, std::size_t wavelengths)
 {
-    constexpr double hidden = 1e-9; // of the largest weight of a scatterer and a wavelength
+    constexpr double hidden = 1e-9;    // of the largest weight of a scatterer and a wavelength
+    constexpr double faintest = 1e-20; // optical depth: with less, light gets so faint that processors compute it a hundred times slower
     const std::size_t row = scatterers * wavelengths;
     std::vector<double> largest(row, 0.);
     for (std::size_t i = 0; i < ray.weights.size(); ++i)
@@ -81,15 +82,51 @@ physics::RayNodes withoutHidden(const physics::RayNodes& ray, std::size_t scatte
     result.nodes.clear();
     result.weights.clear();
     for (std::size_t k = 0; k < ray.nodes.size(); ++k) {
-        const double* weights = &ray.weights[k * row];
-        bool seen = false;
+        std::vector<double> weights(ray.weights.begin() + static_cast<std::ptrdiff_t>(k * row),
+                                    ray.weights.begin() + static_cast<std::ptrdiff_t>((k + 1) * row));
         for (std::size_t i = 0; i < row; ++i)
-            seen = seen || weights[i] > hidden * largest[i];
-        if (!seen)
+            weights[i] = weights[i] > hidden * largest[i] && weights[i] > faintest ? weights[i] : 0;
+        if (*std::max_element(weights.begin(), weights.end()) == 0)
             continue;
         result.nodes.push_back(ray.nodes[k]);
-        result.weights.insert(result.weights.end(), weights, weights + row);
+        result.weights.insert(result.weights.end(), weights.begin(), weights.end());
     }
+    return result;
+}
+
+/// [node]: the largest share that a node has of the light that scatterers send along a ray, of all wavelengths.
+std::vector<double> largestShares(const physics::RayNodes& ray, std::size_t wavelengths)
+{
+    std::vector<double> result(ray.nodes.size(), 0.);
+    const std::size_t scatterers = ray.weights.size() / std::max<std::size_t>(1, ray.nodes.size() * wavelengths);
+    for (std::size_t w = 0; w < wavelengths; ++w) {
+        std::vector<double> sums(ray.nodes.size(), 0.);
+        double all = 0;
+        for (std::size_t k = 0; k < sums.size(); ++k) {
+            for (std::size_t i = 0; i < scatterers; ++i)
+                sums[k] += ray.weights[(k * scatterers + i) * wavelengths + w];
+            all += sums[k];
+        }
+        for (std::size_t k = 0; k < sums.size(); ++k)
+            result[k] = all > 0 ? std::max(result[k], sums[k] / all) : result[k];
+    }
+    return result;
+}
+
+/// What nodes carry, [group][node][...], shared out among entries, [group][entry][...].
+Lanes ofEntries(const Sharing& sharing, const Lanes& ofNodes, int groups)
+{
+    int nodes = 0;
+    for (const auto& part : sharing.parts)
+        nodes = std::max(nodes, part.node + 1);
+    const std::size_t entries = sharing.places.levels.size(), count = static_cast<std::size_t>(groups);
+    const std::size_t row = nodes > 0 ? ofNodes.size() / (count * static_cast<std::size_t>(nodes)) : 0;
+    Lanes result(count * entries * row, Lane{});
+    for (std::size_t g = 0; g < count; ++g)
+        for (const auto& part : sharing.parts)
+            for (std::size_t i = 0; i < row; ++i)
+                result[(g * entries + static_cast<std::size_t>(part.entry)) * row + i] +=
+                    part.share * ofNodes[(g * static_cast<std::size_t>(nodes) + static_cast<std::size_t>(part.node)) * row + i];
     return result;
 }
 
@@ -190,22 +227,29 @@ GridRay AirRays::trace(physics::RayTracer& tracer, const double altitude, const 
         return withoutHidden(tracer.trace(altitude, mu, nodes, hitsGround), static_cast<std::size_t>(scatterers),
                              static_cast<std::size_t>(wavelengths));
     };
+    const auto sharing = [&](const physics::RayNodes& nodes, const Levels& among, double tolerance) {
+        std::vector<Place> places;
+        for (const auto& node : nodes.nodes)
+            places.push_back(among.place(node.altitude, distanceOf(node)));
+        return shareOut(places, largestShares(nodes, static_cast<std::size_t>(wavelengths)), settings.core, tolerance);
+    };
     const auto scattered = seen(settings.nodes);
-    for (const auto& node : scattered.nodes)
-        ray.scattered.push_back(levels.place(node.altitude, distanceOf(node)));
-    ray.coefficients = coefficientsOf(scattered);
+    Sharing shared = sharing(scattered, levels, settings.chords);
+    ray.coefficients = ofEntries(shared, coefficientsOf(scattered), groups);
+    ray.scattered = std::move(shared.places);
 
     const auto direct = seen(settings.directNodes);
-    for (const auto& node : direct.nodes)
-        ray.direct.push_back(sunlightLevels.place(node.altitude, distanceOf(node)));
+    shared = sharing(direct, sunlightLevels, settings.directChords);
     const std::size_t rows = direct.nodes.size() * static_cast<std::size_t>(scatterers);
-    ray.directWeights.resize(static_cast<std::size_t>(groups) * rows);
+    Lanes weights(static_cast<std::size_t>(groups) * rows);
     for (int g = 0; g < groups; ++g)
         for (std::size_t i = 0; i < rows; ++i) {
-            Lane& lane = ray.directWeights[static_cast<std::size_t>(g) * rows + i];
+            Lane& lane = weights[static_cast<std::size_t>(g) * rows + i];
             fillLane(lane, &direct.weights[i * static_cast<std::size_t>(wavelengths)], g, wavelengths);
             lane *= static_cast<float>(1 / (4 * pi));
         }
+    ray.directWeights = ofEntries(shared, weights, groups);
+    ray.direct = std::move(shared.places);
 
     ray.ground.resize(static_cast<std::size_t>(groups));
     if (hitsGround) {

@@ -3,22 +3,17 @@
 
 #include "eclipse/field.hpp"
 #include "eclipse/lane.hpp"
+#include "eclipse/stations.hpp"
 #include "physics/ray.hpp"
 
 namespace sky::eclipse {
 
-/// A place on a ray: between levels `level` and `level + 1`, `share` of the way; `distance` along the ground from the ray's start.
-struct Place {
-    int level;
-    float share, distance;
-};
-
 struct GridRay {
     float mu, weight; ///< cosine of the zenith angle; weight of the quadrature over mu
     bool hitsGround;
-    std::vector<Place> direct, scattered; ///< in levels of sunlight; of the grid
-    Lanes directWeights;                  ///< [group][node][scatterer]: weight over 4 pi
-    Lanes coefficients;                   ///< [group][node][lm]: sum over scatterers of weight lambda_l, times the harmonic factor
+    Stations direct, scattered; ///< in levels of sunlight; of the grid
+    Lanes directWeights;        ///< [group][entry of direct][scatterer]: weight over 4 pi
+    Lanes coefficients;         ///< [group][entry of scattered][lm]: sum over scatterers of weight lambda_l, times the harmonic factor
     float groundDistance = 0;
     Lanes ground;               ///< [group]: transmittance times albedo / pi
     std::vector<float> factors; ///< [lm]: the harmonic factors at mu

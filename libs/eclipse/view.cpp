@@ -148,7 +148,7 @@ ViewLight ScatteredField::view(const TracedViews& views, const std::vector<doubl
 
 ViewLight ScatteredField::State::look(const Light& light, const TracedViews& views, const std::vector<double>& azimuths) const
 {
-    const int wavelengths = air->wavelengths, degree = air->degree, count = static_cast<int>(azimuths.size());
+    const int wavelengths = air->wavelengths, degree = light.degree, count = static_cast<int>(azimuths.size());
     const std::size_t size = views.rays.size() * azimuths.size() * static_cast<std::size_t>(wavelengths);
     ViewLight result{
         count, wavelengths, std::vector<float>(size), std::vector<float>(size), std::vector<float>(size), std::vector<float>(size)};
@@ -175,7 +175,7 @@ ViewLight ScatteredField::State::look(const Light& light, const TracedViews& vie
         }
     };
     const float observer = static_cast<float>(frame.observer());
-    const int terms = physics::harmonicCount(degree);
+    const int terms = physics::harmonicCount(air->degree);
     base::parallel([&](int thread, int threads) {
         Fold fold(degree, grid.points());
         Lanes sums;

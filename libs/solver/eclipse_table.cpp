@@ -236,8 +236,8 @@ double eclipseSeconds(const atmo::Description& d, const Options& options, const 
     double direct = 0, scattered = 0; // visits of a ray's node by light of one azimuth
     for (const auto& level : air.rays)
         for (const auto& ray : level) {
-            direct += settings.azimuths * static_cast<double>(ray.direct.size());
-            scattered += settings.azimuths * static_cast<double>(ray.scattered.size());
+            direct += settings.azimuths * static_cast<double>(ray.direct.stations.size());
+            scattered += settings.azimuths * static_cast<double>(ray.scattered.stations.size());
         }
     const double events = d.allScatteringOrders ? eventsPerEvent * eventsOf(*medium) : d.scatteringOrders - 1.;
     return states * secondsPerVisit * air.groups * settings.along * settings.across *
