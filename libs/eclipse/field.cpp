@@ -31,10 +31,10 @@ void spread(int count, Work&& work)
 
 /// Memory of one task.
 struct Scratch {
-    Lanes planes;  // [azimuth][point]: light that leaves points towards the viewer; [scatterer][point]: mixed sunlight
+    Lanes planes;  // [azimuth][point]: light that leaves points towards the viewer; [point]: mixed sunlight
     Lanes light;   // [azimuth][scatterer][point]
     Lanes arrived; // [azimuth][point]
-    Lanes row;
+    Lanes row, moved;
     std::vector<Shifts> shifts;      // [station, then ground]: of one ray
     std::vector<const Lane*> levels; // of sunlight, of a station
     Seen seen;                       // of a station
@@ -119,13 +119,9 @@ void ScatteredField::State::shine()
 
 void ScatteredField::State::addGround(const GridRay& ray, int group, const Grid& source, const Lane* irradiance, Scratch& scratch) const
 {
-    // It looks the same from all sides.
-    const Lane* ground = irradiance;
     scratch.planes.resize(std::max(scratch.planes.size(), static_cast<std::size_t>(source.points())));
-    mix(&ground, 1, &ray.ground[static_cast<std::size_t>(group)], 1, source.points(), scratch.planes.data());
-    for (int a = 0; a < turn().count; ++a)
-        addShifted(scratch.shifts.back(), a, source.x.count(), scratch.planes.data(), scratch.planes.data(), scratch.row.data(),
-                   &scratch.arrived[static_cast<std::size_t>(a * grid.points())]);
+    if (mix(&irradiance, 1, &ray.ground[static_cast<std::size_t>(group)], 1, source.points(), scratch.planes.data()))
+        addShiftedToAll(scratch.shifts.back(), source, scratch.planes.data(), scratch.moved.data(), scratch.arrived.data(), grid.points());
 }
 
 void ScatteredField::State::directRay(const GridRay& ray, int group, Scratch& scratch) const
@@ -134,21 +130,18 @@ void ScatteredField::State::directRay(const GridRay& ray, int group, Scratch& sc
     const int entries = static_cast<int>(ray.direct.levels.size());
     const auto g = static_cast<std::size_t>(group);
     const Lane* levels = &sunlight[g * static_cast<std::size_t>(air->sunlightLevels.count() * finePoints)];
-    scratch.planes.resize(static_cast<std::size_t>(scatterers * finePoints));
+    scratch.planes.resize(static_cast<std::size_t>(finePoints));
     scratch.light.assign(static_cast<std::size_t>(scatterers * azimuths * gridPoints), Lane{});
     for (std::size_t k = 0; k < ray.direct.stations.size(); ++k) {
         const Station& station = ray.direct.stations[k];
         scratch.levels.clear();
         for (int e = 0; e < station.count; ++e)
             scratch.levels.push_back(levels + ray.direct.levels[static_cast<std::size_t>(station.first + e)] * finePoints);
-        mix(scratch.levels.data(), station.count,
-            &ray.directWeights[static_cast<std::size_t>((group * entries + station.first) * scatterers)], scatterers, finePoints,
-            scratch.planes.data());
-        for (int a = 0; a < azimuths; ++a)
-            for (int s = 0; s < scatterers; ++s)
-                addShifted(scratch.shifts[k], a, fine.x.count(), &scratch.planes[static_cast<std::size_t>(s * finePoints)],
-                           &scratch.planes[static_cast<std::size_t>(s * finePoints)], scratch.row.data(),
-                           &scratch.light[static_cast<std::size_t>((a * scatterers + s) * gridPoints)]);
+        const Lane* weights = &ray.directWeights[static_cast<std::size_t>((group * entries + station.first) * scatterers)];
+        for (int s = 0; s < scatterers; ++s)
+            if (mix(scratch.levels.data(), station.count, weights + s, scatterers, finePoints, scratch.planes.data()))
+                addShiftedToAll(scratch.shifts[k], fine, scratch.planes.data(), scratch.moved.data(),
+                                &scratch.light[static_cast<std::size_t>(s * gridPoints)], scatterers * gridPoints);
     }
     const Lane* phase = &air->phase[g * static_cast<std::size_t>(scatterers * (air->degree + 1))];
     const float sine = std::sqrt(std::max(0.f, 1 - ray.mu * ray.mu));
@@ -193,7 +186,8 @@ void ScatteredField::State::scatteredRay(const GridRay& ray, int group, Scratch&
 void ScatteredField::State::gatherLevel(int level, Light& light) const
 {
     Scratch scratch;
-    scratch.row.resize(static_cast<std::size_t>(fine.x.count()));
+    scratch.row.resize(static_cast<std::size_t>(grid.x.count()));
+    scratch.moved.resize(static_cast<std::size_t>(fine.y.count() * grid.x.count()));
     scratch.arrived.resize(static_cast<std::size_t>(turn().count) * points());
     const bool direct = events == 0;
     const Grid& source = direct ? fine : grid;

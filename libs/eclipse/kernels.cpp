@@ -1,6 +1,7 @@
 #include "eclipse/kernels.hpp"
 #include "physics/harmonics.hpp"
 #include <cmath>
+#include <cstdlib>
 
 #if defined(__GNUC__)
 #define SKY_INLINE inline __attribute__((always_inline))
@@ -26,7 +27,10 @@ SKY_INLINE void radiateDegree(const float* cosines, const float* sines, int azim
             even[m] = odd[m] = Lane{};
         for (int e = 0; e < count; ++e) {
             const Lane *here = seen.levels[static_cast<std::size_t>(e)] + p * harmonics, *factors = seen.coefficients + e * seen.terms;
+            // Unrolled, so that the sums stay in registers.
+#pragma GCC unroll 8
             for (int l = 0; l <= degree; ++l)
+#pragma GCC unroll 8
                 for (int m = 0; m <= l; ++m) {
                     const Lane c = factors[termIndex(l, m)];
                     even[m] += c * here[cosineIndex(l, m)];
@@ -166,6 +170,36 @@ void addShifted(const Shifts& shifts, int azimuth, int sourceAlong, const Lane* 
 }
 
 SKY_WIDEST_VECTORS
+void addShiftedToAll(const Shifts& shifts, const Grid& source, const Lane* plane, Lane* moved, Lane* sums, int stride)
+{
+    const int azimuths = shifts.azimuths(), columns = shifts.columns(), rows = shifts.rows(), sourceAlong = source.x.count();
+    for (int a = 0; a < azimuths / 2; ++a) { // which shares its shift along with azimuth -a
+        const Neighbours* along = shifts.along(a);
+        for (int j = 0; j < source.y.count(); ++j) {
+            const Lane* row = plane + j * sourceAlong;
+            for (int i = 0; i < columns; ++i) {
+                const Neighbours& m = along[i];
+                moved[j * columns + i] = m.weight[0] * row[m.index[0]] + m.weight[1] * row[m.index[1]] + m.weight[2] * row[m.index[2]] +
+                                         m.weight[3] * row[m.index[3]];
+            }
+        }
+        for (const int azimuth : {a, azimuths - 1 - a}) {
+            const Neighbours* across = shifts.across(azimuth);
+            for (int j = 0; j < rows; ++j) {
+                const Neighbours& n = across[j];
+                const float w0 = n.weight[0], w1 = n.weight[1], w2 = n.weight[2], w3 = n.weight[3];
+                const Lane* line[4];
+                for (int k = 0; k < 4; ++k)
+                    line[k] = moved + std::abs(n.index[k]) * columns;
+                Lane* out = sums + azimuth * stride + j * columns;
+                for (int i = 0; i < columns; ++i)
+                    out[i] += w0 * line[0][i] + w1 * line[1][i] + w2 * line[2][i] + w3 * line[3][i];
+            }
+        }
+    }
+}
+
+SKY_WIDEST_VECTORS
 void foldPoint(int degree, const Lane* lower, const Lane* upper, float share, const Lane* coefficients, Lane* terms)
 {
     for (int k = 0; k <= 2 * degree; ++k)
@@ -198,17 +232,23 @@ void addFolded(int degree, int count, const Lane* const* terms, const float* wei
 }
 
 SKY_WIDEST_VECTORS
-void mix(const Lane* const* levels, int count, const Lane* weights, int planeCount, int points, Lane* planes)
+bool mix(const Lane* const* levels, int count, const Lane* weights, int stride, int points, Lane* plane)
 {
-    for (int s = 0; s < planeCount; ++s) {
-        Lane* plane = planes + s * points;
-        for (int p = 0; p < points; ++p) {
-            Lane sum{};
-            for (int e = 0; e < count; ++e)
-                sum += weights[e * planeCount + s] * levels[e][p];
-            plane[p] = sum;
-        }
+    Lane largest{};
+    for (int e = 0; e < count; ++e)
+        largest += weights[e * stride];
+    float sum = 0;
+    for (int i = 0; i < lanes; ++i)
+        sum += largest[i];
+    if (!(sum > 0))
+        return false;
+    for (int p = 0; p < points; ++p) {
+        Lane value{};
+        for (int e = 0; e < count; ++e)
+            value += weights[e * stride] * levels[e][p];
+        plane[p] = value;
     }
+    return true;
 }
 
 SKY_WIDEST_VECTORS

@@ -41,6 +41,7 @@ public:
         return &along_[static_cast<std::size_t>(std::min(azimuth, azimuths_ - 1 - azimuth) * columns_)];
     }
     const Neighbours* across(int azimuth) const;
+    int azimuths() const { return azimuths_; }
     int columns() const { return columns_; }
     int rows() const { return rows_; }
 
@@ -49,9 +50,13 @@ private:
     std::vector<Neighbours> along_, across_; ///< [half of the azimuths][point]: two azimuths each share a shift along, and across
 };
 
-/// Adds the plane, shifted, to `sums`, [target points].
+/// Adds the plane, shifted towards one azimuth, to `sums`, [target points].
 ///   plane, mirror  [source points]: this azimuth, and what its mirror image sees;  row  scratch, [source points along]
 void addShifted(const Shifts& shifts, int azimuth, int sourceAlong, const Lane* plane, const Lane* mirror, Lane* row, Lane* sums);
+/// The same towards all azimuths, for a plane of light that looks alike from all sides.
+///   sums   [azimuth], each after `stride`: [target points]
+///   moved  scratch, [source points across][target points along]
+void addShiftedToAll(const Shifts& shifts, const Grid& source, const Lane* plane, Lane* moved, Lane* sums, int stride);
 
 /// Where light of a level comes from: factors of cos(m phi), then of sin(m phi), m >= 1, at one point.
 ///   lower, upper  [harmonic], moments at the levels below and above; `share` of the way between them
@@ -61,8 +66,9 @@ void foldPoint(int degree, const Lane* lower, const Lane* upper, float share, co
 void addFolded(int degree, int count, const Lane* const* terms, const float* weights, const bool* mirrored, const float* cosines,
                const float* sines, Lane& sum);
 
-/// Sets `planes`, [plane][point], to the sum over `count` levels, [point] each, times `weights`, [level][plane].
-void mix(const Lane* const* levels, int count, const Lane* weights, int planeCount, int points, Lane* planes);
+/// Sets `plane`, [point], to the sum over `count` levels, [point] each, times `weights`, each after `stride`.
+///   returns  false, and sets nothing, if all weights are 0
+bool mix(const Lane* const* levels, int count, const Lane* weights, int stride, int points, Lane* plane);
 
 /// Sets `plane`, [point], to the sum over scatterers of `light`, [scatterer][point], times the phase function at `nu`, [point].
 ///   phase  [scatterer][degree + 1]

@@ -72,12 +72,12 @@ std::vector<double> sunlightAltitudes(const physics::Planet& planet, const Level
 /// they tell nothing.
 physics::RayNodes withoutHidden(const physics::RayNodes& ray, std::size_t scatterers, std::size_t wavelengths)
 {
-    constexpr double hidden = 1e-9;    // of the largest weight of a scatterer and a wavelength
+    constexpr double hidden = 1e-9;    // of the largest weight of a wavelength
     constexpr double faintest = 1e-20; // optical depth: with less, light gets so faint that processors compute it a hundred times slower
     const std::size_t row = scatterers * wavelengths;
-    std::vector<double> largest(row, 0.);
+    std::vector<double> largest(wavelengths, 0.);
     for (std::size_t i = 0; i < ray.weights.size(); ++i)
-        largest[i % row] = std::max(largest[i % row], ray.weights[i]);
+        largest[i % wavelengths] = std::max(largest[i % wavelengths], ray.weights[i]);
     physics::RayNodes result = ray;
     result.nodes.clear();
     result.weights.clear();
@@ -85,7 +85,7 @@ physics::RayNodes withoutHidden(const physics::RayNodes& ray, std::size_t scatte
         std::vector<double> weights(ray.weights.begin() + static_cast<std::ptrdiff_t>(k * row),
                                     ray.weights.begin() + static_cast<std::ptrdiff_t>((k + 1) * row));
         for (std::size_t i = 0; i < row; ++i)
-            weights[i] = weights[i] > hidden * largest[i] && weights[i] > faintest ? weights[i] : 0;
+            weights[i] = weights[i] > hidden * largest[i % wavelengths] && weights[i] > faintest ? weights[i] : 0;
         if (*std::max_element(weights.begin(), weights.end()) == 0)
             continue;
         result.nodes.push_back(ray.nodes[k]);
