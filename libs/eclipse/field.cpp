@@ -45,12 +45,9 @@ ScatteredField::State::State(std::shared_ptr<const AirRays> rays, const physics:
                              const Orders& orders_, SunlightLeft left)
     : air(std::move(rays)), sun(sun_), orders(orders_), sunlightLeft(std::move(left)), frame(bodies),
       grid(makeGrid(frame, air->settings)), fine{grid.x.refined(std::max(1, air->settings.sunlightRefinement)),
-                                                 grid.y.refined(std::max(1, air->settings.sunlightRefinement))}
+                                                 grid.y.refined(std::max(1, air->settings.sunlightRefinement))},
+      turns(turnsOf(air->settings, air->degree))
 {
-    // The fewer waves, the fewer azimuths tell them apart.
-    for (int degree = air->degree; turns.empty() || degree >= air->settings.leastDegree; --degree)
-        turns.emplace_back(std::min(air->settings.azimuths, (2 * degree + 4) / 4 * 4), degree);
-    turns.front() = Turn(air->settings.azimuths, air->degree);
     if (!sunlightLeft) {
         const auto shadow = physics::singlePrecision(physics::makeShadow(bodies));
         sunlightLeft = [shadow](const std::array<float, 3>& point) { return shadow.visibleSun(point); };

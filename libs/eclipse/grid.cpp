@@ -92,6 +92,14 @@ Turn::Turn(const int count_, const int degree_) : count(count_), degree(degree_)
         }
 }
 
+std::vector<Turn> turnsOf(const FieldSettings& settings, const int degree)
+{
+    std::vector<Turn> turns{{settings.azimuths, degree}};
+    for (int later = degree - 1; later >= settings.leastDegree; --later) // the fewer waves, the fewer azimuths tell them apart
+        turns.emplace_back(std::min(settings.azimuths, (2 * later + 4) / 4 * 4), later);
+    return turns;
+}
+
 double Turn::azimuth(const int index) const { return 2 * pi * (index + 0.5) / count; }
 
 } // namespace sky::eclipse

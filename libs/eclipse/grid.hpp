@@ -59,4 +59,8 @@ struct Turn {
     int mirror(int index) const { return count - 1 - index; }
 };
 
+/// [event]: the directions of its light; the last of all later events.
+///   degree  of the first
+std::vector<Turn> turnsOf(const FieldSettings& settings, int degree);
+
 } // namespace sky::eclipse

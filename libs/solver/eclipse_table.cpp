@@ -1,5 +1,6 @@
 #include "solver/eclipse_table.hpp"
 #include "eclipse/field.hpp"
+#include "eclipse/kernels.hpp"
 #include "eclipse/rays.hpp"
 #include "model/eclipse_table.hpp"
 #include "physics/stencil.hpp"
@@ -24,11 +25,13 @@ constexpr int solvedSuns = 16;
 constexpr float leastRatio = 1e-9f;
 /// On the ground no air is seen below the horizon. What is seen from this altitude, m, is what quotients in between go towards.
 constexpr double leastAltitude = 1;
-/// Seconds for one field of three events and eight wavelengths, on two cores, before the medium is known; for one visit of a ray's node by eight
-/// wavelengths in one azimuth over one point of the grid.
-constexpr double usualStateSeconds = 0.09, secondsPerVisit = 6e-9;
-/// Levels of clear air; a visit takes the longer the more there are, since fewer of them stay in the cache.
-constexpr double fewLevels = 13;
+/// Seconds for one field of three events and eight wavelengths, on two cores, before the medium is known; for one shift of eight wavelengths
+/// towards one azimuth at one point of the grid.
+constexpr double usualStateSeconds = 0.06, secondsPerVisit = 3.5e-9;
+/// In shifts: one of light that looks alike from all sides; what a station takes beside its shifts; a direction of view at a node of its ray.
+constexpr double shiftEvenly = 0.7, radiating = 5, viewing = 40;
+/// Moments that are read in the time of a shift.
+constexpr double harmonicsPerVisit = 6;
 /// Events until quotients are known, of the events until the ordinary light is: the shadow is filled from far away.
 constexpr double eventsPerEvent = 1.3;
 /// Share of the stage's time that goes into quotients, for the progress bar.
@@ -53,10 +56,6 @@ eclipse::FieldSettings tableSettings(const std::string& quality)
     } else if (quality == "normal") {
         s.along = 15;
         s.across = 8;
-        s.azimuths = 8;
-        s.directNodes = 16;
-        s.nodes = 9;
-        s.degree = 4;
         s.viewNodes = 28;
     } else {
         const bool finest = quality == "reference";
@@ -233,15 +232,23 @@ double eclipseSeconds(const atmo::Description& d, const Options& options, const 
     const auto field = qualityFor(options.quality, *medium, orderTolerance(options)).moments;
     const auto optics = physics::makeOptics(*medium, field.degree, field.truncatePeaks);
     const eclipse::AirRays air(*medium, profile, optics, settings);
-    double direct = 0, scattered = 0; // visits of a ray's node by light of one azimuth
+    // Moments that are read and planes that are shifted, all points of a level at once.
+    const auto turns = eclipse::turnsOf(settings, air.degree);
+    const double events = d.allScatteringOrders ? eventsPerEvent * eventsOf(*medium) : d.scatteringOrders - 1.;
+    double visits = 0;
     for (const auto& level : air.rays)
         for (const auto& ray : level) {
-            direct += settings.azimuths * static_cast<double>(ray.direct.stations.size());
-            scattered += settings.azimuths * static_cast<double>(ray.scattered.stations.size());
+            const auto& [places, entries] = ray.scattered;
+            visits += shiftEvenly * turns.front().count * air.scatterers * static_cast<double>(ray.direct.stations.size());
+            for (double event = 1; event < events; ++event) {
+                const auto& turn = turns[std::min(static_cast<std::size_t>(event), turns.size() - 1)];
+                visits += static_cast<double>(places.size()) * (turn.count + radiating) +
+                          static_cast<double>(entries.size()) * eclipse::allHarmonics(turn.degree) / harmonicsPerVisit;
+            }
         }
-    const double events = d.allScatteringOrders ? eventsPerEvent * eventsOf(*medium) : d.scatteringOrders - 1.;
-    return states * secondsPerVisit * air.groups * settings.along * settings.across *
-           (2 * air.scatterers * direct + (events - 1) * scattered) * air.levels.count() / fewLevels;
+    const auto size = eclipseTableSize(d);
+    visits = visits * settings.along * settings.across + viewing * size.viewZenithAngle * size.dotViewSun * settings.viewNodes;
+    return states * secondsPerVisit * air.groups * visits;
 }
 
 void bakeEclipsed(const gl::Api& api, const BakeJob& ordinary, const physics::Moments& field, model::ModelWriter& writer,
