@@ -107,6 +107,12 @@ void Scene::followSunlight()
 
 bool Scene::onceAtMost() const { return sky::model::scattersOnceAtMost(atmosphere_->model.manifest()); }
 
+bool Scene::skyLeavesGroundDark() const
+{
+    const auto& albedo = atmosphere_->medium.groundAlbedo;
+    return !moments_ && !onceAtMost() && std::any_of(albedo.begin(), albedo.end(), [](double a) { return a > 0; });
+}
+
 bool Scene::hasSource(Source source) const
 {
     return source == Source::moments ? atmosphere_->model.hasTable("moments") || onceAtMost()
@@ -306,7 +312,7 @@ EclipseScene Scene::eclipseScene() const
     scene.orders.all = settings_.eclipseOrders == 0 && manifest.allScatteringOrders;
     scene.orders.orders = settings_.eclipseOrders == 0 ? manifest.scatteringOrders : settings_.eclipseOrders;
     scene.limbDarkening = settings_.limbDarkening;
-    const bool ground = settings_.layers.zeroOrder && !settings_.pseudoMirror;
+    const bool ground = settings_.layers.zeroOrder && !settings_.pseudoMirror && moments_;
     scene.field = !onceAtMost() && (ground || (settings_.layers.multipleScattering && !usesEclipseTable(settings_)));
     scene.weights = atmosphere_->luminanceWeights(settings_.solarSpectrumFactors);
     return scene;

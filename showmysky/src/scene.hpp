@@ -30,6 +30,8 @@ public:
     const Atmosphere& atmosphere() const { return *atmosphere_; }
     const Phases& phases() const { return *phases_; }
     bool hasSource(Source source) const;
+    /// The ground reflects light, but nothing tells what the sky sends it: models without moments.
+    bool skyLeavesGroundDark() const;
     std::string whyUnsupported(const SceneSettings& settings) const;
 
     /// throws Error

@@ -154,9 +154,12 @@ Progress Sky::loadStep()
             in.painter = std::make_unique<Painter>(in.context.api(), in.scene.atmosphere().scatterers(), phases.texels(Painter::phaseWidth),
                                                    in.options);
             in.loaded = true;
-            if (in.options.log)
+            if (in.options.log) {
                 for (const auto& warning : in.scene.atmosphere().model.manifest().warnings)
                     in.options.log("The model warns: " + warning);
+                if (in.scene.skyLeavesGroundDark())
+                    in.options.log("The model has no moments, so that the sky doesn't light the ground: only the Sun does.");
+            }
             return {true, 1, {}};
         }
         ++in.nextStep;
