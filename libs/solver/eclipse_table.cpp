@@ -55,7 +55,6 @@ eclipse::FieldSettings tableSettings(const std::string& quality)
         s.viewNodes = 10;
     } else if (quality == "normal") {
         s.along = 15;
-        s.across = 8;
         s.viewNodes = 28;
     } else {
         const bool finest = quality == "reference";
