@@ -1,7 +1,7 @@
 #include "physics/moments.hpp"
 #include "base/angles.hpp"
 #include "physics/harmonics.hpp"
-#include "physics/table_axes.hpp"
+#include "physics/levels.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,14 +14,6 @@ using base::pi;
 
 /// Neighbouring intervals, as a share of this one, below which a level counts as an end.
 constexpr double unevenness = 0.25;
-
-/// Optical depth between two levels of the grid above which another level is put between them.
-constexpr double levelOpticalDepth = 0.3;
-/// So many times more of them in an interval with an edge.
-constexpr double edgeCrowding = 1.25;
-/// The same along a grazing ray, of what is not exponential in altitude: a thin layer high up is thick for a setting Sun. No light grazes
-/// through more than the thickest.
-constexpr double levelUnevenDepth = 0.4, thickest = 1.6;
 
 /// Beyond, days would be coarse for the sake of a sunset that lasts seconds.
 constexpr double mostSunScale = 8;
@@ -44,69 +36,7 @@ MomentGrid::MomentGrid(const Profile& profile, const std::vector<double>& larges
                        const double sunRadius)
     : planet_(profile.planet()), sunCount_(sunCount)
 {
-    const double top = planet_.topOfAtmosphere;
-    std::vector<double> levels = altitudeNodes(planet_, altitudeCount);
-
-    // Optical depth from the ground up, at the shells of the profile, and levels at the feet of jumps.
-    const auto& shells = profile.shells();
-    const int species = profile.speciesCount();
-    const auto depth = depthBelowShells(profile, largestExtinction);
-    std::vector<double> n(species);
-    const auto extinctionAt = [&](int interval, double altitude) {
-        profile.densities(interval, altitude, n.data());
-        double beta = 0;
-        for (int s = 0; s < species; ++s)
-            beta += n[s] * largestExtinction[s];
-        return beta;
-    };
-    const auto depthAt = [&](double altitude) {
-        const int k = profile.intervalAt(altitude);
-        return depth[k] + depthInShell(profile, largestExtinction, k, altitude);
-    };
-    // Optical depth of a grazing ray between two levels, as far as extinction there is not exponential: what a level between them would see.
-    const auto unevenDepth = [&](double low, double high) {
-        const double a = extinctionAt(profile.intervalAt(low), low), b = extinctionAt(profile.intervalAt(high), high);
-        double most = 0;
-        for (int q = 1; q < 8; ++q) {
-            const double x = q / 8., h = low + (high - low) * x, even = a > 0 && b > 0 ? a * std::pow(b / a, x) : a + (b - a) * x;
-            most = std::max(most, std::abs(extinctionAt(profile.intervalAt(h), h) - even));
-        }
-        const double far = horizonDistance(planet_, high), near = horizonDistance(planet_, low);
-        return most * std::sqrt((far - near) * (far + near));
-    };
-    for (size_t k = 1; k + 1 < shells.size(); ++k) {
-        const double below = extinctionAt(static_cast<int>(k) - 1, shells[k]), above = extinctionAt(static_cast<int>(k), shells[k]);
-        const bool steep =
-            shells[k + 1] - shells[k] < 1e-5 * top && std::abs(extinctionAt(static_cast<int>(k), shells[k + 1]) - above) * top > 0.02;
-        if (steep || std::abs(above - below) * top > 0.02 * std::max(1., depth.back()))
-            levels.push_back(0.5 * (shells[k] + shells[k + 1]) - (steep ? 0 : 0.5 * (shells[k + 1] - shells[k])));
-    }
-    const std::vector<double> jumps(levels.begin() + altitudeCount, levels.end());
-    const auto isJump = [&](double level) { return std::find(jumps.begin(), jumps.end(), level) != jumps.end(); };
-    std::sort(levels.begin(), levels.end());
-    altitudes_.push_back(0);
-    for (const double level : levels) {
-        const double last = altitudes_.back();
-        if (level - last < 1e-6 * top)
-            continue;
-        // The field bends within a small optical depth of an edge, the ground among them, so levels crowd there, as the cosines of even
-        // angles do.
-        const bool edgeBelow = last == 0 || isJump(last), edgeAbove = isJump(level);
-        const double density = edgeBelow || edgeAbove ? edgeCrowding / levelOpticalDepth : 1 / levelOpticalDepth;
-        const int forShape =
-            edgeBelow || edgeAbove ? 0 : static_cast<int>(std::sqrt(std::min(unevenDepth(last, level), thickest) / levelUnevenDepth));
-        const int extra = std::clamp(static_cast<int>((depthAt(level) - depthAt(last)) * density), forShape, 63);
-        for (int i = 1; i <= extra; ++i) {
-            const double even = static_cast<double>(i) / (extra + 1);
-            const double share = edgeBelow && edgeAbove ? 0.5 - 0.5 * std::cos(pi * even)
-                                 : edgeBelow            ? 1 - std::cos(0.5 * pi * even)
-                                 : edgeAbove            ? std::sin(0.5 * pi * even)
-                                                        : even;
-            altitudes_.push_back(last + (level - last) * share);
-        }
-        altitudes_.push_back(level);
-    }
-    altitudes_.back() = top;
+    altitudes_ = fieldLevels(profile, largestExtinction, altitudeCount);
 
     // Where the air above a millionth of the column ends, three horizon dips below the horizontal is night everywhere.
     const double dip = dipOfAir(profile, largestExtinction);

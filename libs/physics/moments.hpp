@@ -14,9 +14,8 @@ class MomentGrid
 {
 public:
     MomentGrid() = default;
-    /// Grid that follows the medium: `altitudeCount` levels evenly spread in sqrt(r^2 - R^2), and more wherever a density
-    /// jumps or the vertical optical depth between two levels exceeds a bound.
-    ///   extinction  [altitude interval of the profile] is asked through the largest cross sections, [species], m^2
+    /// Grid that follows the medium: `altitudeCount` levels and more, see fieldLevels.
+    ///   largestExtinction  cross sections, [species], m^2
     ///   sunRadius   of the disc, rad
     MomentGrid(const Profile& profile, const std::vector<double>& largestExtinction, int altitudeCount, int sunCount, double sunRadius = 0);
     /// Grid as it was stored.

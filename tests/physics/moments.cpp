@@ -177,11 +177,11 @@ TEST_CASE("grid of the moments: levels at the edges of a cloud and inside it, in
     };
     CHECK(near(1000));
     CHECK(near(2000));
-    double widest = 0;
     for (std::size_t k = 0; k + 1 < h.size(); ++k)
-        if (h[k] >= 999 && h[k + 1] <= 2001)
-            widest = std::max(widest, h[k + 1] - h[k]);
-    CHECK(widest * 10 / 1000 <= 0.5 + 1e-3); // optical depth between levels: the bound of the grid
+        if (h[k] >= 999 && h[k + 1] <= 2001) { // optical depth between levels: the bound of the grid, at the edges and inside
+            const double within = std::max(2., 10 * std::min(h[k + 1] - 1000, 2000 - h[k]) / 1000);
+            CHECK((h[k + 1] - h[k]) * 10 / 1000 <= 0.25 * within + 1e-3);
+        }
 }
 
 TEST_CASE("grid of the moments: a sunset meets as many Suns on any planet, and noon its share")
