@@ -33,11 +33,11 @@ public:
     double sunElevation(double position) const;
     /// Position 0..sunCount-1 of a Sun's elevation, clamped to the grid.
     double sunPosition(double elevation) const;
-    /// a of the axis, 3 for most planets.
+    /// a of the axis, 3.5 for most planets.
     double sunScale() const { return sunScale_; }
     /// v of the lowest Sun.
     double vLowest() const { return vLowest_; }
-    static constexpr double leastSunScale = 3;
+    static constexpr double leastSunScale = 3.5;
 
     /// Cubic Hermite with slopes of parabolas through three levels, in the measure sqrt(r^2 - R^2).
     Stencil altitudeStencil(double altitude) const;

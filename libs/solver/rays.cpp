@@ -97,7 +97,7 @@ namespace {
 
 /// Angle of the Sun over which scattered light bends by as much as itself, at its worst in twilight: part of the angles that the grid of
 /// the moments resolves about the horizon, which go with the planet's dip. On Earth 0.9 degrees.
-double bendOf(const physics::MomentGrid& grid) { return 0.1 * pi / 2 / std::sinh(grid.sunScale()); }
+double bendOf(const physics::MomentGrid& grid) { return 0.165 * pi / 2 / std::sinh(grid.sunScale()); }
 
 std::vector<Stations> stationsOf(const Scene& scene, const physics::MomentGrid& grid, const std::vector<physics::RayNodes>& rays,
                                  const ScatteredRaySettings& settings)
