@@ -140,12 +140,12 @@ int neededDegree(const physics::Medium& medium, int most, double tolerance)
 /// Vertical optical depth of scattering above which air is dense: most light is scattered more than once.
 constexpr double thick = 1.2;
 
-/// A peak worth truncating is worth more harmonics, directions that resolve them, and nodes where light dims along the ray. Most harmonics in
-/// haze: the aureole of light scattered twice is cut with the peak, and a cloud washes it out.
+/// A peak worth truncating is worth more harmonics, directions that resolve them, and nodes where light dims along the ray. Most of them in
+/// haze: the aureole of light scattered twice is cut with the peak, and a cloud washes it out; and slanted rays see far into haze.
 physics::MomentSettings forPeaks(physics::MomentSettings m, const bool dense)
 {
     m.degree = std::max(dense ? 14 : 18, m.degree + 6);
-    m.nodes += 2;
+    m.nodes += dense ? 2 : 6;
     m.groundDirections += 2;
     m.skyDirections += 2;
     m.lightAzimuths = m.azimuths;
