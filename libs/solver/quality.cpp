@@ -15,7 +15,8 @@ namespace {
 /// tables by Monte Carlo show, their noise removed, and, without particles, of what separates the point from `reference` at the same places:
 ///   bench_front front AIR.atmo TABLE.csv --orders all --presets draft!,normal!,good!,fine!,finer! [--against reference]
 /// for the airs and tables of bench/run: thin, earth, dense, hazy, cloudy. Where the tables can't tell finer points apart, these keep the error of
-/// the coarser one, and where a coarse one errs less by chance it has the error of the finer: what is finer than `fine` was only looked at in the Earth's air, `reference` against itself half as fine again (docs/accuracy.md).
+/// the coarser one, and where a coarse one errs less by chance it has the error of the finer. What is finer than `fine` was only looked at in the
+/// Earth's air, `reference` against itself half as fine again (docs/accuracy.md).
 struct Point {
     std::string name;
     double work; ///< processor time of the moments by that of `normal`, about the mean over the kinds of air
