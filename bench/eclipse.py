@@ -20,6 +20,7 @@ CASES = [  # name, zenith angle of the Sun, Moon's zenith angle and azimuth minu
     ("partial, 0.06 degrees", 50, 0.06, 0, 371925e3),
     ("partial, 0.3 degrees", 50, 0.2, 0.25, 371925e3),
     ("partial, Sun low", 85, 0.15, 0.1, 371925e3),
+    ("partial, Sun lowest", 88, 0.15, 0.1, 371925e3),
     ("annular", 50, 0, 0, 400000e3),
 ]
 DIRECTIONS = [(vza, az) for vza in (10, 35, 62, 80, 88) for az in (3, 60, 120, 180)]
