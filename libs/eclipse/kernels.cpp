@@ -13,7 +13,7 @@ namespace sky::eclipse {
 
 namespace {
 
-constexpr int termIndex(int l, int m) { return l * (l + 1) / 2 + m; }
+using physics::harmonicIndex;
 constexpr int cosineIndex(int l, int m) { return l * l + std::max(0, 2 * m - 1); }
 constexpr int sineIndex(int l, int m) { return l * l + 2 * m; }
 
@@ -32,7 +32,7 @@ SKY_INLINE void radiateDegree(const float* cosines, const float* sines, int azim
             for (int l = 0; l <= degree; ++l)
 #pragma GCC unroll 8
                 for (int m = 0; m <= l; ++m) {
-                    const Lane c = factors[termIndex(l, m)];
+                    const Lane c = factors[harmonicIndex(l, m)];
                     even[m] += c * here[cosineIndex(l, m)];
                     if (m > 0)
                         odd[m] += c * here[sineIndex(l, m)];
@@ -76,7 +76,7 @@ SKY_INLINE void projectDegree(const float* cosines, const float* sines, int azim
         Lane* out = moments + p * allHarmonics(degree);
         for (int l = 0; l <= degree; ++l)
             for (int m = 0; m <= l; ++m) {
-                const float y = solidAngle * factors[termIndex(l, m)];
+                const float y = solidAngle * factors[harmonicIndex(l, m)];
                 out[cosineIndex(l, m)] += y * even[m];
                 if (m > 0)
                     out[sineIndex(l, m)] += y * odd[m];
@@ -207,7 +207,7 @@ void foldPoint(int degree, const Lane* lower, const Lane* upper, float share, co
     for (int l = 0; l <= degree; ++l)
         for (int m = 0; m <= l; ++m) {
             const int i = cosineIndex(l, m), k = sineIndex(l, m);
-            const Lane c = coefficients[termIndex(l, m)];
+            const Lane c = coefficients[harmonicIndex(l, m)];
             terms[m] += c * (lower[i] + share * (upper[i] - lower[i]));
             if (m > 0)
                 terms[degree + m] += c * (lower[k] + share * (upper[k] - lower[k]));
