@@ -15,6 +15,7 @@ import numpy as np
 
 JUMP = 0.05 # of the radiance: between two views or places that are all but the same
 SURPLUS = 1.05 # of the energy that comes in: the quadratures of these checks are good to a few per cent
+DARKNESS = 1e-14 # of sunlight, per sr: less is nobody's light, as `calcmysky verify` has it too
 
 
 def dip(facts, altitude):
@@ -128,8 +129,9 @@ def judge_methods(fast, reference, layers, facts):
     rows = special_places(facts)[::3] # the precise ones take milliseconds each
     rows = rows[np.abs(rows[:, 2] - math.pi / 2 - np.array([dip(facts, h) for h in rows[:, 0]])) > 1e-6] # both sides of the horizon are right on it
     a, b = (light.radiance(*rows.T, layers=layers) for light in (fast, reference))
-    light = b.max(axis=1) / max(b.max(), 1e-300)
-    error = np.abs(a - b).max(axis=1) / max(b.max(), 1e-300) / np.maximum(light, 1e-6)
+    brightest = max(b.max(), DARKNESS * reference.solar_irradiance.max())
+    light = b.max(axis=1) / brightest
+    error = np.abs(a - b).max(axis=1) / brightest / np.maximum(light, 1e-6)
     found = {}
     for name, some in (("bright", light > 1e-2), ("faint", ~(light > 1e-2))): # no number is faint
         if some.any():
