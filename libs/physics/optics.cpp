@@ -14,9 +14,14 @@ constexpr double truncationMatters = 0.005;
 /// The mean that becomes f reaches up to so many times the first degree that is cut.
 constexpr int truncatedReach = 5;
 
+/// Largest moment that a scaled series may end with. One that is cut while it is large undershoots by as much; radiances below zero are cut too, and
+/// so each event would make light from nothing: 1.5 times what came in of g = 0.99 and an optical depth of 10, and more at each lower degree.
+constexpr double mostAtEnd = 0.1;
+
 /// The share f of a phase function that is taken as not scattered at all. Scaling with f replaces every Legendre moment above the degree
 /// by f: the best is their mean, weighted with the light that meets them, (2l + 1) |lambda_l|^3 (the power of 3 by measurement, docs/method).
-/// Where moments die out fast it is little less than the first of them; a slow tail, like that of an aureole, needs much less.
+/// Where moments die out fast it is little less than the first of them; a slow tail, like that of an aureole, needs much less. But what is left of
+/// the series has to fade before its end, as far as the usual f, the first moment that is left out (Wiscombe 1977), lets it.
 double peakShare(const std::vector<double>& moments, const int degree)
 {
     double sum = 0, weights = 0;
@@ -25,7 +30,8 @@ double peakShare(const std::vector<double>& moments, const int degree)
         sum += weight * moments[l];
         weights += weight;
     }
-    return weights > 0 ? std::clamp(sum / weights, 0., 0.999) : 0;
+    const double fading = std::min((moments[degree] - mostAtEnd) / (1 - mostAtEnd), moments[degree + 1]);
+    return weights > 0 ? std::clamp(std::max(sum / weights, fading), 0., 0.999) : 0;
 }
 
 } // namespace
