@@ -14,4 +14,7 @@ sky::physics::EclipseBodies bodiesOf(const sky::model::Manifest& manifest, doubl
 /// throws sky::RangeError where the Moon can't be there
 EclipseState stateOf(const sky::physics::EclipseBodies& bodies);
 
+/// Nodes of a ray through the shadow, for single directions.
+constexpr int nodesInShadow = 400;
+
 } // namespace showmysky

@@ -13,8 +13,6 @@ namespace physics = sky::physics;
 namespace {
 
 using sky::base::pi;
-/// Along a ray through the shadow.
-constexpr int eclipseNodes = 400;
 
 } // namespace
 
@@ -63,7 +61,7 @@ void EclipsePhotometry::radiance(const Photometer::View& view, const Moon& moon,
     const auto sunAt = [&](const physics::RayNodes::Node& node) { return sunSeen(shadow, planet, view.altitude, direction, node); };
     const std::size_t row = sky_.optics.scatterers.size() * wavelengths;
     physics::RayTracer tracer(sky_.profile, sky_.optics);
-    auto ray = tracer.trace(entry->altitude, entry->mu, eclipseNodes, hitsGround);
+    auto ray = tracer.trace(entry->altitude, entry->mu, nodesInShadow, hitsGround);
     if (layers & Photometer::singleScattering) {
         std::vector<physics::MiddleOfLight> middles(ray.nodes.size());
         for (std::size_t k = 0; k < ray.nodes.size(); ++k) {

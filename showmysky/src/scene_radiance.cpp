@@ -12,13 +12,7 @@ namespace showmysky {
 
 namespace physics = sky::physics;
 
-namespace {
-
 using sky::base::pi;
-/// Along a ray through the shadow.
-constexpr int nodesInShadow = 400;
-
-} // namespace
 
 std::vector<double> Scene::spectralRadiance(const std::array<double, 3>& direction)
 {
