@@ -28,6 +28,24 @@ void shareOut(const PartLight<double>& part, double column, double centreOfDensi
     }
 }
 
+/// Light that passes a cell of a ray, all [wavelength].
+///   tau            optical depth of the cell
+///   transmittance  up to the cell, then up to its end
+///   mean           transmittance to the viewer, the exact mean over the cell
+///   shift          of the centre from which its light comes, in lengths of the cell
+SKY_WIDEST_VECTORS
+void passCell(const double* __restrict tau, int wavelengths, double* __restrict transmittance, double* __restrict mean,
+              double* __restrict shift)
+{
+    for (int w = 0; w < wavelengths; ++w) {
+        const double lost = -base::expm1Lane(-tau[w]), depth = tau[w] > 1e-9 ? tau[w] : 1, part = tau[w] > 1e-9 ? lost : 1;
+        const double thick = 1 / depth - (1 - lost) / part - 0.5;
+        shift[w] = tau[w] > 1e-3 ? thick : -tau[w] / 12;
+        mean[w] = transmittance[w] * (tau[w] > 1e-9 ? lost / depth : 1 - 0.5 * tau[w]);
+        transmittance[w] = transmittance[w] * (1 - lost);
+    }
+}
+
 } // namespace
 
 RayTracer::RayTracer(const Profile& profile, const Optics& optics, const double cellScale) : profile_(profile), optics_(optics)
@@ -87,12 +105,14 @@ void RayTracer::walk(const double h, const double mu, const bool hitsGround, con
         s1 = std::clamp(s1, s0, length);
         if (s1 > s0) {
             const double h0 = altitudeAlong(p, h, mu, s0), h1 = altitudeAlong(p, h, mu, s1);
-            profile_.densities(k, 0.5 * (h0 + h1), n.data());
-            profile_.densities(k, h0, m.data());
             Stretch stretch{s0, s1, length, profile_.steepness(k) * std::abs(h1 - h0), 0, 0};
-            for (int s = 0; s < species; ++s) {
-                stretch.depth += n[s] * maxExtinction_[s] * (s1 - s0);
-                stretch.near += m[s] * maxExtinction_[s] * (s1 - s0);
+            if (std::isfinite(limits.depth)) {
+                profile_.densities(k, 0.5 * (h0 + h1), n.data());
+                profile_.densities(k, h0, m.data());
+                for (int s = 0; s < species; ++s) {
+                    stretch.depth += n[s] * maxExtinction_[s] * (s1 - s0);
+                    stretch.near += m[s] * maxExtinction_[s] * (s1 - s0);
+                }
             }
             const CellDivision division = divided(stretch, limits);
             const int cells = division.count();
@@ -197,12 +217,7 @@ RayNodes RayTracer::trace(const double altitude, const double mu, const int coun
             for (int w = 0; w < wavelengths; ++w)
                 tau[w] += column[s] * optics_.extinction[s * wavelengths + w];
         double scattered = 0;
-        for (int w = 0; w < wavelengths; ++w) {
-            const double lost = -std::expm1(-tau[w]);
-            shift[size_t(c) * wavelengths + w] = tau[w] > 1e-3 ? 1 / tau[w] - (1 - lost) / lost - 0.5 : -tau[w] / 12;
-            mean[w] = transmittance[w] * (tau[w] > 1e-9 ? lost / tau[w] : 1 - 0.5 * tau[w]);
-            transmittance[w] *= 1 - lost;
-        }
+        passCell(tau.data(), wavelengths, transmittance.data(), mean, &shift[size_t(c) * wavelengths]);
         for (const int s : optics_.scatterers)
             for (int w = 0; w < wavelengths; ++w)
                 scattered += column[s] * optics_.scattering[s * wavelengths + w] * mean[w];
@@ -239,6 +254,8 @@ RayNodes RayTracer::trace(const double altitude, const double mu, const int coun
         const PartLight<double> partLight(part);
         for (int i = 0; i < scatterers; ++i) {
             const int c = part.cell, s = optics_.scatterers[i];
+            if (!(columns_[c * species + s] > 0)) // layers end, and where many are given most don't reach a given cell
+                continue;
             double* const near = &result.weights[(part.node * scatterers + i) * wavelengths];
             shareOut(partLight, columns_[c * species + s], centres_[c * species + s], &optics_.scattering[s * wavelengths],
                      &seen[c * wavelengths], &shift[size_t(c) * wavelengths], wavelengths, near, near + scatterers * wavelengths);

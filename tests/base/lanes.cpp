@@ -17,6 +17,24 @@ TEST_CASE("lanes: powers of two are good to 3e-7, and stop at the ends of floats
     CHECK(base::exp2Lane(0.F) == 1.F);
 }
 
+TEST_CASE("lanes: exponentials in double are good to 1e-15, less one too, and stop at the ends")
+{
+    double worst = 0, worstLessOne = 0;
+    for (double x = -699.9; x < 700; x += 0.00973) {
+        const double truth = std::exp(x);
+        worst = std::max(worst, std::abs(base::expLane(x) - truth) / truth);
+    }
+    for (double size = 1e-300; size < 700; size *= 1.0117)
+        for (const double x : {size, -size})
+            worstLessOne = std::max(worstLessOne, std::abs(base::expm1Lane(x) / std::expm1(x) - 1));
+    CHECK(worst < 1e-15);
+    CHECK(worstLessOne < 1e-15);
+    CHECK(base::expLane(-1e30) == base::expLane(-700.));
+    CHECK(base::expLane(1e30) == base::expLane(700.));
+    CHECK(base::expLane(0.) == 1);
+    CHECK(base::expm1Lane(0.) == 0);
+}
+
 TEST_CASE("lanes: logarithms are good to 2e-7 of 1 or of themselves")
 {
     double worst = 0;
