@@ -1,4 +1,6 @@
 #include "physics/profile.hpp"
+#include "base/lanes.hpp"
+#include "physics/optics.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -6,24 +8,47 @@ namespace sky::physics {
 
 namespace {
 
-double interpolate(double n0, double n1, double x) { return n0 > 0 && n1 > 0 ? n0 * std::pow(n1 / n0, x) : n0 + x * (n1 - n0); }
-
 /// Densities below this share of a species' greatest column are followed only loosely.
 constexpr double negligibleShare = 1e-7;
 
-bool chordFits(const Medium& medium, const std::vector<double>& negligible, size_t a, size_t b, double tolerance)
-{
-    const auto& h = medium.altitudes;
-    // A chord must not bridge a jump's foot: equality at every node in between is enough.
-    for (size_t s = 0; s < medium.species.size(); ++s) {
-        const auto& n = medium.species[s].numberDensity;
+/// The densities of a species on the nodes of a medium, and chords between them.
+struct Curve {
+    const std::vector<double>& altitudes;
+    const std::vector<double>& densities;
+    double negligible; ///< m^-3
+
+    /// Whether a chord from one node to another follows the density as far as `tolerance`. It must not bridge a jump's foot: equality at every
+    /// node in between is enough.
+    ///   logarithmic  straight is the logarithm, not the density
+    bool followedBy(size_t a, size_t b, bool logarithmic, double tolerance) const
+    {
+        const double from = densities[a], to = densities[b], length = altitudes[b] - altitudes[a];
         for (size_t k = a + 1; k < b; ++k) {
-            const double fit = interpolate(n[a], n[b], (h[k] - h[a]) / (h[b] - h[a]));
-            if (std::abs(fit - n[k]) > tolerance * n[k] + negligible[s])
+            const double x = (altitudes[k] - altitudes[a]) / length;
+            const double fit = logarithmic ? from * std::pow(to / from, x) : from + x * (to - from);
+            if (std::abs(fit - densities[k]) > tolerance * densities[k] + negligible)
                 return false;
         }
+        return true;
     }
-    return true;
+    /// Neighbours are joined as the medium has it. Farther apart, where the logarithm is not straight the density itself may be: where it goes to
+    /// zero, chords of the logarithm would go on for hundreds of shells.
+    bool logarithmic(size_t a, size_t b, double tolerance) const
+    {
+        return densities[a] > 0 && densities[b] > 0 && followedBy(a, b, true, tolerance);
+    }
+    bool followed(size_t a, size_t b, double tolerance) const { return logarithmic(a, b, tolerance) || followedBy(a, b, false, tolerance); }
+};
+
+/// Densities `dh` above a shell: of all species at once, for that is where the time of a ray goes.
+SKY_WIDEST_VECTORS
+void densitiesAlong(const double* __restrict start, const double* __restrict slope, const double* __restrict logarithmic, int species,
+                    double dh, double* __restrict values)
+{
+    for (int s = 0; s < species; ++s) {
+        const double x = start[s] + slope[s] * dh;
+        values[s] = logarithmic[s] > 0 ? base::expLane(x) : x > 0 ? x : 0;
+    }
 }
 
 } // namespace
@@ -32,35 +57,33 @@ Profile::Profile(const Medium& medium, const double tolerance)
     : planet_{medium.planetRadius, medium.topOfAtmosphere}, species_(static_cast<int>(medium.species.size()))
 {
     const auto& h = medium.altitudes;
-    std::vector<double> negligible(species_);
-    for (int s = 0; s < species_; ++s) {
-        const auto& n = medium.species[s].numberDensity;
-        double column = 0;
-        for (size_t k = 0; k + 1 < h.size(); ++k)
-            column += 0.5 * (n[k] + n[k + 1]) * (h[k + 1] - h[k]);
-        negligible[s] = negligibleShare * column / planet_.topOfAtmosphere;
-    }
+    std::vector<Curve> curves;
+    for (const auto& species : medium.species)
+        curves.push_back({h, species.numberDensity, negligibleShare * verticalColumn(medium, species) / planet_.topOfAtmosphere});
+    const auto followed = [&](size_t a, size_t b) {
+        return std::all_of(curves.begin(), curves.end(), [&](const Curve& curve) { return curve.followed(a, b, tolerance); });
+    };
 
     shells_.push_back(h.front());
     for (size_t a = 0; a + 1 < h.size();) {
         // Longest chord by doubling, then bisection.
         size_t good = a + 1, step = 1, bad = h.size();
-        while (good + step < h.size() && chordFits(medium, negligible, a, good + step, tolerance)) {
+        while (good + step < h.size() && followed(a, good + step)) {
             good += step;
             step *= 2;
         }
         bad = std::min(good + step, h.size());
         while (bad - good > 1) {
             const size_t middle = (good + bad) / 2;
-            (middle < h.size() && chordFits(medium, negligible, a, middle, tolerance) ? good : bad) = middle;
+            (middle < h.size() && followed(a, middle) ? good : bad) = middle;
         }
         double steepness = 0;
-        for (int s = 0; s < species_; ++s) {
-            const auto& n = medium.species[s].numberDensity;
-            const bool logarithmic = n[a] > 0 && n[good] > 0;
+        for (const Curve& curve : curves) {
+            const auto& n = curve.densities;
+            const bool logarithmic = curve.logarithmic(a, good, tolerance);
             const double slope = (logarithmic ? std::log(n[good] / n[a]) : n[good] - n[a]) / (h[good] - h[a]);
-            segments_.push_back({logarithmic ? std::log(n[a]) : n[a], slope, logarithmic});
-            if (std::max(n[a], n[good]) > 100 * negligible[s])
+            segments_.add(logarithmic ? std::log(n[a]) : n[a], slope, logarithmic);
+            if (std::max(n[a], n[good]) > 100 * curve.negligible)
                 steepness = std::max(steepness, logarithmic ? std::abs(slope) : 1 / (h[good] - h[a]));
         }
         steepness_.push_back(steepness);
@@ -74,7 +97,7 @@ Profile Profile::withShellsAt(const std::vector<double>& altitudes) const
     const double closest = 1e-7 * planet_.topOfAtmosphere; // to a shell that is there
     Profile finer = *this;
     finer.shells_ = {shells_.front()};
-    finer.segments_.clear();
+    finer.segments_ = {};
     finer.steepness_.clear();
     for (size_t k = 0; k + 1 < shells_.size(); ++k) {
         std::vector<double> ends;
@@ -85,9 +108,9 @@ Profile Profile::withShellsAt(const std::vector<double>& altitudes) const
         ends.push_back(shells_[k + 1]);
         for (const double end : ends) {
             for (int s = 0; s < species_; ++s) {
-                Segment segment = segments_[k * species_ + s];
-                segment.start += segment.slope * (finer.shells_.back() - shells_[k]);
-                finer.segments_.push_back(segment);
+                const size_t at = k * species_ + s;
+                finer.segments_.add(segments_.start[at] + segments_.slope[at] * (finer.shells_.back() - shells_[k]), segments_.slope[at],
+                                    segments_.logarithmic[at]);
             }
             finer.steepness_.push_back(steepness_[k]);
             finer.shells_.push_back(end);
@@ -102,14 +125,18 @@ int Profile::intervalAt(const double altitude) const
     return static_cast<int>(std::clamp<std::ptrdiff_t>(above, 1, static_cast<std::ptrdiff_t>(shells_.size()) - 1)) - 1;
 }
 
+void Profile::Segments::add(const double atStart, const double along, const double isLogarithmic)
+{
+    start.push_back(atStart);
+    slope.push_back(along);
+    logarithmic.push_back(isLogarithmic);
+}
+
 void Profile::densities(const int interval, const double altitude, double* const values) const
 {
-    const double dh = altitude - shells_[interval];
-    for (int s = 0; s < species_; ++s) {
-        const auto& segment = segments_[interval * species_ + s];
-        const double x = segment.start + segment.slope * dh;
-        values[s] = segment.logarithmic ? std::exp(x) : std::max(0., x);
-    }
+    const size_t first = size_t(interval) * species_;
+    densitiesAlong(&segments_.start[first], &segments_.slope[first], &segments_.logarithmic[first], species_, altitude - shells_[interval],
+                   values);
 }
 
 double depthInShell(const Profile& profile, const std::vector<double>& crossSections, const int interval, const double altitude)

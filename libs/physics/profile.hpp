@@ -25,18 +25,22 @@ public:
     int intervalAt(double altitude) const;
     /// Number densities at `altitude`, taken from interval k, [species], m^-3.
     void densities(int interval, double altitude, double* values) const;
+    /// Whether between the shells of interval k the logarithm of a species' number density is straight; else the density itself.
+    bool logarithmic(int interval, int species) const { return segments_.logarithmic[std::size_t(interval) * species_ + species] > 0; }
     /// Largest |d ln n / dh| of the species that matter in interval k, m^-1.
     double steepness(int interval) const { return steepness_[interval]; }
 
 private:
-    struct Segment {
-        double start, slope;
-        bool logarithmic;
+    /// Densities between two shells, as the compiler's vectors want them, [interval][species]: exp(start + slope dh) where `logarithmic` is 1, start +
+    /// slope dh where it is 0.
+    struct Segments {
+        std::vector<double> start, slope, logarithmic;
+        void add(double atStart, double along, double isLogarithmic);
     };
     Planet planet_;
     int species_ = 0;
     std::vector<double> shells_;
-    std::vector<Segment> segments_; // [interval][species]
+    Segments segments_;
     std::vector<double> steepness_;
 };
 

@@ -156,7 +156,7 @@ RayFolder::RayFolder(const physics::Profile& profile, const physics::Optics& opt
         double below = 0, above = 0;
         for (int s = 0; s < species_; ++s) {
             const double a = ends[2 * k * species_ + s] / largest[s], b = ends[(2 * k + 1) * species_ + s] / largest[s];
-            const bool logarithmic = a > 0 && b > 0;
+            const bool logarithmic = profile.logarithmic(static_cast<int>(k), s);
             const double start = logarithmic ? std::log(a) : a, end = logarithmic ? std::log(b) : b;
             segments_.push_back({start, (end - start) / (shells[k + 1] - shells[k]), logarithmic ? 1.f : 0.f});
             const auto sigma = optics.extinction.begin() + s * optics.wavelengths;

@@ -12,15 +12,16 @@ namespace {
 
 constexpr double top = 20e3;
 
-Profile profileOf(const std::vector<double>& altitudes, const std::vector<double>& densities)
+Profile profileOf(const std::vector<double>& altitudes, const std::vector<double>& densities, double tolerance = 3e-4)
 {
-    return Profile(withDensity(layer(1, 1, 0, sky::test::isotropicPhase, 6.371e6), altitudes, densities));
+    return Profile(withDensity(layer(1, 1, 0, sky::test::isotropicPhase, 6.371e6), altitudes, densities), tolerance);
 }
 
 /// A layer with edges a centimetre wide, from 1 to 2 km.
 Profile cloud() { return profileOf({0, 1000, 1000.01, 2000, 2000.01, top}, {0, 0, 1, 1, 0, 0}); }
 
-/// max(0, 1 - x^2) as the medium is sampled: so that it is log-linear between nodes, down to where they touch.
+/// max(0, 1 - x^2) as the medium is sampled: so that it is log-linear between nodes, down to where they touch; a shell at
+/// each of them.
 Profile bump()
 {
     const double centre = 5e3, width = 1e3;
@@ -37,7 +38,7 @@ Profile bump()
         add(2 * centre - below[k]);
     altitudes.push_back(top);
     densities.push_back(0);
-    return profileOf(altitudes, densities);
+    return profileOf(altitudes, densities, 0);
 }
 
 } // namespace
@@ -105,5 +106,5 @@ TEST_CASE("field levels: where a density goes to zero, hundreds of shells are no
     const auto levels = fieldLevels(air, {100. / 1333}, 14); // the bump is 100 deep
     const auto atFoot = [](double h) { return std::abs(h - 4000) < 1 || std::abs(h - 6000) < 1; };
     CHECK(std::count_if(levels.begin(), levels.end(), atFoot) <= 8);
-    CHECK(levels.size() < 80);
+    CHECK(levels.size() < 90); // of 112 that there may be
 }

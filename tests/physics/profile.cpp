@@ -32,6 +32,36 @@ TEST_CASE("profile: exponential air needs two shells, however finely it is tabul
     CHECK(profile.steepness(0) == Approx(1 / 8e3));
 }
 
+TEST_CASE("profile: a layer that fades to nothing needs few shells")
+{
+    // A parabola, tabulated as finely as the medium's tables are near its feet: steps in proportion to what is left.
+    std::vector<double> h{0}, n{0};
+    const double centre = 50e3, width = 20e3;
+    for (double left = 1e-8; left < 1; left *= 1.01) {
+        h.push_back(centre - width * (1 - left));
+        n.push_back(left * (2 - left));
+    }
+    for (std::size_t i = h.size() - 1; i > 0; --i) {
+        h.push_back(2 * centre - h[i]);
+        n.push_back(n[i]);
+    }
+    h.insert(h.end(), 120e3);
+    n.push_back(0);
+    h.insert(h.begin() + 1, centre - width);
+    n.insert(n.begin() + 1, 0);
+    h.insert(h.end() - 1, centre + width);
+    n.insert(n.end() - 1, 0);
+    const Profile profile(withDensity(base(), h, n));
+    CHECK(profile.shells().size() < 150); // chords of the logarithm alone: 502
+    double column = 0;
+    for (std::size_t k = 0; k + 1 < h.size(); ++k) {
+        const double middle = 0.5 * (h[k] + h[k + 1]), truth = std::max(0., 1 - std::pow((middle - centre) / width, 2));
+        CHECK(std::abs(density(profile, middle) - truth) < 4e-4 * truth + 3e-8); // 3e-4, the table's own steps, and a share of 1e-7
+        column += density(profile, middle) * (h[k + 1] - h[k]);
+    }
+    CHECK(column == Approx(width * 4 / 3).epsilon(1e-3));
+}
+
 TEST_CASE("profile: a smooth curve is followed within the tolerance by few shells")
 {
     std::vector<double> h, n;
