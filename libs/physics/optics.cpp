@@ -18,6 +18,21 @@ constexpr int truncatedReach = 5;
 /// so each event would make light from nothing: 1.5 times what came in of g = 0.99 and an optical depth of 10, and more at each lower degree.
 constexpr double mostAtEnd = 0.1;
 
+/// In air too thin for that a series may be cut where it is large, unless its phase function is sharp: one whose moment of this degree is above this
+/// (g = 0.82). Away from its peak, where there is little light, it undershoots, and along horizontal rays through a flat layer even thin air is
+/// deep: light scattered twice was four times too bright for g = 0.9, and below zero.
+constexpr int sharpDegree = 8;
+constexpr double sharpMoment = 0.2;
+
+/// Last moment of the Gaussian that takes the place of a peak in thin air: little enough for no ripples of its own.
+constexpr double gaussianEnd = 0.01;
+
+/// Legendre moment l of a Gaussian over small angles, exp(-l (l + 1) s), with the width that ends so at the degree.
+double gaussianMoment(const int l, const int degree)
+{
+    return degree > 0 ? std::pow(gaussianEnd, l * (l + 1.) / (degree * (degree + 1.))) : 1;
+}
+
 /// The share f of a phase function that is taken as not scattered at all. Scaling with f replaces every Legendre moment above the degree
 /// by f: the best is their mean, weighted with the light that meets them, (2l + 1) |lambda_l|^3 (the power of 3 by measurement, docs/method).
 /// Where moments die out fast it is little less than the first of them; a slow tail, like that of an aureole, needs much less. But what is left of
@@ -54,6 +69,7 @@ Optics makeOptics(const Medium& medium, const int degree, const bool truncate)
     optics.extinction.resize(optics.species * wavelengths);
     optics.scattering.resize(optics.species * wavelengths);
     optics.truncation.resize(optics.species * wavelengths);
+    optics.blurred.resize(optics.species * wavelengths);
     optics.moments.resize(optics.species * (degree + 1) * wavelengths);
     for (int s = 0; s < optics.species; ++s) {
         const auto& species = medium.species[s];
@@ -63,24 +79,26 @@ Optics makeOptics(const Medium& medium, const int degree, const bool truncate)
         for (int w = 0; w < wavelengths; ++w) {
             const double sigma = species.extinctionCrossSection[w];
             const double sigmaScattering = species.scatters() ? sigma * species.singleScatteringAlbedo[w] : 0;
-            double f = 0;
+            double f = 0, blurred = 0;
             if (sigmaScattering > 0) {
                 scatters = true;
                 if (w == 0 || !species.achromatic || moments.empty())
-                    moments = phaseMoments(medium, species, w, degree + 1);
+                    moments = phaseMoments(medium, species, w, std::max(degree + 1, sharpDegree));
                 const bool matters = std::clamp(moments[degree + 1], 0., 0.999) * sigmaScattering * particles > truncationMatters;
                 const int longest = truncatedReach * (degree + 1);
-                if (truncate && matters) {
+                if (truncate && (matters || moments[sharpDegree] > sharpMoment)) {
                     if (static_cast<int>(moments.size()) <= longest)
                         moments = phaseMoments(medium, species, w, longest);
-                    f = peakShare(moments, degree);
+                    (matters ? f : blurred) = peakShare(moments, degree);
                 }
             }
             optics.truncation[s * wavelengths + w] = f;
+            optics.blurred[s * wavelengths + w] = blurred;
             optics.extinction[s * wavelengths + w] = sigma - f * sigmaScattering;
             optics.scattering[s * wavelengths + w] = (1 - f) * sigmaScattering;
             for (int l = 0; l <= degree; ++l)
-                optics.moments[(s * (degree + 1) + l) * wavelengths + w] = sigmaScattering > 0 ? (moments[l] - f) / (1 - f) : 0;
+                optics.moments[(s * (degree + 1) + l) * wavelengths + w] =
+                    sigmaScattering > 0 ? (moments[l] - f - blurred * (1 - gaussianMoment(l, degree))) / (1 - f) : 0;
         }
         if (scatters)
             optics.scatterers.push_back(s);
@@ -101,6 +119,11 @@ std::vector<double> largestExtinctions(const Optics& optics)
 bool truncates(const Optics& optics)
 {
     return std::any_of(optics.truncation.begin(), optics.truncation.end(), [](double f) { return f > 0; });
+}
+
+bool blurs(const Optics& optics)
+{
+    return std::any_of(optics.blurred.begin(), optics.blurred.end(), [](double b) { return b > 0; });
 }
 
 int bentDegree(const Optics& optics) { return std::min(optics.degree, truncates(optics) ? 10 : 4); }

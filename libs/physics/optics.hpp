@@ -4,10 +4,12 @@
 
 namespace sky::physics {
 
-/// What radiative transfer needs of each species at each wavelength, with sharp forward peaks truncated (delta-M scaling).
+/// What radiative transfer needs of each species at each wavelength, with sharp forward peaks truncated (delta-M scaling) or blurred.
 ///
 /// With f the truncated share of the phase function, extinction and scattering cross sections lose f sigma_sca and the
 /// Legendre moments become (lambda_l - f) / (1 - f). source: Wiscombe 1977, J. Atmos. Sci. 34, 1408.
+/// In thin air nothing is truncated, and the same share b of a sharp peak becomes as wide as the degree resolves: lambda_l - b (1 - k_l), k_l
+/// the moments of a Gaussian.
 struct Optics {
     int degree = 0;
     int species = 0;
@@ -15,6 +17,7 @@ struct Optics {
     std::vector<double> extinction; ///< [species][wavelengths], m^2, scaled
     std::vector<double> scattering; ///< [species][wavelengths], m^2, scaled
     std::vector<double> truncation; ///< [species][wavelengths], f, 0..1
+    std::vector<double> blurred;    ///< [species][wavelengths], b, 0..1
     std::vector<double> moments;    ///< [species][0..degree][wavelengths], lambda_l, scaled
     std::vector<int> scatterers;    ///< indices of the species that scatter at some wavelength
 
@@ -25,7 +28,7 @@ struct Optics {
 double verticalColumn(const Medium& medium, const Species& species);
 
 /// Optics of `medium` for harmonics up to `degree`.
-///   truncate  scale with f = lambda_{degree+1} where that much light matters; false: the series is only cut
+///   truncate  scale, or blur, where peaks are sharp; false: the series is only cut
 Optics makeOptics(const Medium& medium, int degree, bool truncate);
 
 /// Largest extinction cross section of each species over wavelengths, m^2.
@@ -33,6 +36,9 @@ std::vector<double> largestExtinctions(const Optics& optics);
 
 /// Whether any peak is truncated.
 bool truncates(const Optics& optics);
+
+/// Whether any peak is blurred.
+bool blurs(const Optics& optics);
 
 /// Up to this degree tables of the radiance field are interpolated by cubics, above it straight between two neighbours: what is above is a
 /// small part of the light, but for sharp peaks, and its curvature a small part of that (docs/method 5 has what it costs and saves).

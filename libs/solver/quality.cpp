@@ -76,8 +76,7 @@ const Point& pointNamed(const std::string& name)
 
 bool truncatesPeaks(const physics::Medium& medium, const int degree)
 {
-    const auto optics = physics::makeOptics(medium, degree, true);
-    return std::any_of(optics.truncation.begin(), optics.truncation.end(), [](double f) { return f > 0; });
+    return physics::truncates(physics::makeOptics(medium, degree, true));
 }
 
 /// Vertical optical depth of scattering, the mean over wavelengths.
@@ -154,15 +153,25 @@ physics::MomentSettings forPeaks(physics::MomentSettings m, const bool dense)
     return m;
 }
 
+/// A peak in thin air is blurred to what the harmonics resolve.
+physics::MomentSettings forBlurredPeaks(physics::MomentSettings m)
+{
+    m.degree += 6;
+    m.lightAzimuths = m.azimuths;
+    m.azimuths = std::max(m.azimuths, m.degree + 2);
+    return m;
+}
+
 /// What air asks for beyond the point of the front.
 physics::MomentSettings forAir(physics::MomentSettings m, const physics::Medium& medium)
 {
     const bool dense = scatteringDepth(medium) > thick;
-    if (truncatesPeaks(medium, m.degree))
+    const auto optics = physics::makeOptics(medium, m.degree, true);
+    if (physics::truncates(optics))
         return forPeaks(m, dense);
     if (dense) // the field changes along a ray as light dims
         m.nodes += m.nodes / 2;
-    return m;
+    return physics::blurs(optics) ? forBlurredPeaks(m) : m;
 }
 
 } // namespace

@@ -70,6 +70,36 @@ TEST_CASE("delta-M scaling: leaves gentle phase functions and thin air alone, an
     CHECK(plain.moment(0, 4, 0) == Approx(std::pow(0.9, 4)).epsilon(1e-4));
 }
 
+TEST_CASE("peaks in thin air: what scatters nothing straight on is blurred until the series has no ripples below zero, where it is sharp")
+{
+    for (const double g : {0.9, 0.97, 0.99})
+        for (const int degree : {4, 8, 14, 20}) {
+            CAPTURE(g, degree);
+            const auto thin = layer(1e-4, 0.9, 0, [&](double t) { return henyeyGreenstein(g, t); });
+            const Optics optics = makeOptics(thin, degree, true);
+            CHECK(optics.truncation[0] == 0);
+            CHECK(optics.extinction[0] == Approx(1e-4 / 1000).epsilon(1e-12));
+            CHECK(optics.moment(0, 0, 0) == Approx(1).epsilon(1e-5)); // table of the phase function
+            double lowest = 0, peak = 0;
+            std::vector<double> polynomials(degree + 1);
+            for (int i = 0; i <= 180; ++i) {
+                legendre(degree, std::cos(i * 3.14159265358979 / 180), polynomials.data());
+                double sum = 0;
+                for (int l = 0; l <= degree; ++l)
+                    sum += (2 * l + 1) * optics.moment(0, l, 0) * polynomials[l];
+                lowest = std::min(lowest, sum);
+                peak = std::max(peak, sum);
+            }
+            CHECK(lowest > -0.01 * peak); // of a cut one: -0.22 to -0.3
+        }
+    const auto gentle = layer(1e-4, 1, 0, [](double t) { return henyeyGreenstein(0.76, t); });
+    for (int l = 0; l <= 4; ++l)
+        CHECK(makeOptics(gentle, 4, true).moment(0, l, 0) == Approx(std::pow(0.76, l)).epsilon(1e-4));
+    const auto sharp = layer(1e-4, 1, 0, [](double t) { return henyeyGreenstein(0.99, t); });
+    CHECK(makeOptics(sharp, 0, true).moment(0, 0, 0) == Approx(1));
+    CHECK(makeOptics(sharp, 8, false).moment(0, 8, 0) == Approx(std::pow(0.99, 8)).epsilon(1e-3));
+}
+
 TEST_CASE("optics: absorbers extinguish and do not scatter")
 {
     const auto medium = sky::test::sampleEarth(sky::test::Aerosol::Yes);
