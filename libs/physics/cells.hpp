@@ -78,10 +78,13 @@ enum class NodesFor { Sunlight, Field };
 
 /// What a cell has of a ray, or what the whole ray has.
 struct NodeShares {
-    double light = 0;   ///< scattered towards the viewer, any unit
-    double climb = 0;   ///< change of the distance to the horizon, m
-    double way = 0;     ///< length, m
-    double dimming = 0; ///< vertical optical depth, mean of the wavelengths
+    double light = 0;    ///< scattered towards the viewer, any unit
+    double climb = 0;    ///< change of the distance to the horizon, m
+    double way = 0;      ///< length, m
+    double dimming = 0;  ///< vertical optical depth, mean of the wavelengths
+    double halvings = 0; ///< of the way to upper edges of the air: Profile::halvings
+    double depth = 0;    ///< optical depth along the ray, mean of the wavelengths
+    double bending = 0;  ///< of the field: `dimming`, as far as it is not too deep in thick air for the field to matter there
 
     void operator+=(const NodeShares& other)
     {
@@ -89,28 +92,68 @@ struct NodeShares {
         climb += other.climb;
         way += other.way;
         dimming += other.dimming;
+        halvings += other.halvings;
+        depth += other.depth;
+        bending += other.bending;
     }
 };
 
+/// Weighs the cells of a ray, in order, by what the viewer can see of them: the deeper they are in thick air, the less can what they do to
+/// light matter; and cells that scatter nothing, or are hidden behind an optical depth of 46 and more, not at all. Returns what the whole
+/// ray has then.
+inline NodeShares weighedAsSeen(std::vector<NodeShares>& cells)
+{
+    constexpr double unseen = 1e-20; // share of the light that an even ray would send from there
+    constexpr double far = 12;       // optical depth behind which bending counts half,
+    constexpr double skin = 1;       // and edges do
+    NodeShares whole, seen;
+    for (const NodeShares& cell : cells)
+        whole += cell;
+    if (!(whole.light > 0))
+        return whole;
+    const double even = unseen * whole.light / whole.way;
+    double passed = 0;
+    for (NodeShares& cell : cells) {
+        const double counts = cell.light > 0 ? cell.light / (cell.light + even * cell.way) : 0;
+        cell.climb *= counts;
+        cell.way *= counts;
+        cell.dimming *= counts;
+        cell.bending = cell.dimming * far * far / (far * far + passed * passed);
+        cell.halvings *= counts * skin / (skin + passed);
+        passed += cell.depth;
+        seen += cell;
+    }
+    return seen;
+}
+
 /// The measure of which nodes stand at equal steps: where the light comes from, altitude, length (the shadow may begin anywhere), and in
-/// thick air the vertical optical depth, with which sunlight and field change: they are taken as linear between nodes.
+/// thick air the vertical optical depth, with which sunlight and field change: they are taken as linear between nodes. Under an edge of the
+/// air a low Sun lights a skin, and each halving of the way to the edge counts as much.
 class NodeMeasure
 {
 public:
     NodeMeasure(const NodeShares& whole, NodesFor nodesFor)
     {
-        const double dimming = (nodesFor == NodesFor::Sunlight ? 0.3 : 0.8) * whole.dimming / (1 + whole.dimming);
-        const auto per = [](double share, double all) { return all > 0 ? share / all : 0; };
-        per_ = {per(0.3 * (1 - dimming), whole.light), per(0.2 * (1 - dimming), whole.climb), per(0.5 * (1 - dimming), whole.way),
-                per(dimming, whole.dimming)};
+        const bool sunlight = nodesFor == NodesFor::Sunlight;
+        const double edges = (sunlight ? 0.5 : 0.4) * whole.halvings / (8 + whole.halvings);
+        const double thick = sunlight ? whole.dimming : whole.bending, depth = (sunlight ? 0.3 : 0.8) * thick / (1 + thick);
+        const double others = (1 - edges) * (1 - depth), perDepth = per((1 - edges) * depth, thick);
+        per_.light = per(0.3 * others, whole.light);
+        per_.climb = per(0.2 * others, whole.climb);
+        per_.way = per(0.5 * others, whole.way);
+        (sunlight ? per_.dimming : per_.bending) = perDepth;
+        per_.halvings = per(edges, whole.halvings);
     }
     /// Of a cell; the whole ray has 1.
     double of(const NodeShares& cell) const
     {
-        return per_.light * cell.light + per_.climb * cell.climb + per_.way * cell.way + per_.dimming * cell.dimming;
+        return per_.light * cell.light + per_.climb * cell.climb + per_.way * cell.way + per_.dimming * cell.dimming +
+               per_.halvings * cell.halvings + per_.bending * cell.bending;
     }
 
 private:
+    static double per(double share, double all) { return all > 0 ? share / all : 0; }
+
     NodeShares per_;
 };
 

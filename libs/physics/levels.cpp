@@ -52,7 +52,7 @@ public:
     double depthBelow(double altitude) const
     {
         const int k = profile_.intervalAt(altitude);
-        return below_[k] + depthInShell(profile_, crossSections_, k, altitude);
+        return below_[k] + depthInShell(profile_, crossSections_, k, profile_.shells()[k], altitude);
     }
     double depth() const { return below_.back(); }
 

@@ -3,6 +3,7 @@
 #include "physics/optics.hpp"
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace sky::physics {
 
@@ -90,15 +91,83 @@ Profile::Profile(const Medium& medium, const double tolerance)
         shells_.push_back(h[good]);
         a = good;
     }
+    halvings_.assign(steepness_.size(), 0.);
+    findUpperEdges(medium);
 }
 
-Profile Profile::withShellsAt(const std::vector<double>& altitudes) const
+void Profile::findUpperEdges(const Medium& medium)
 {
-    const double closest = 1e-7 * planet_.topOfAtmosphere; // to a shell that is there
+    constexpr double narrow = 1e-5; // share of the atmosphere over which air ends at once,
+    constexpr double left = 0.5;    // if at most this share of its extinction is left
+    constexpr double little = 0.3;  // optical depth
+    constexpr int least = 3, most = 20;
+    std::vector<double> largest;
+    for (const Species& species : medium.species)
+        largest.push_back(*std::max_element(species.extinctionCrossSection.begin(), species.extinctionCrossSection.end()));
+    std::vector<double> n(species_);
+    const auto extinctionAt = [&](int interval, double altitude) {
+        densities(interval, altitude, n.data());
+        return std::inner_product(n.begin(), n.end(), largest.begin(), 0.);
+    };
+    for (int end = static_cast<int>(shells_.size()) - 1; end > 0; --end) {
+        const double edge = shells_[end], above = end + 1 < static_cast<int>(shells_.size()) ? extinctionAt(end, edge) : 0;
+        int k = end - 1; // the first interval below that is not narrow
+        while (k > 0 && shells_[k + 1] - shells_[k] < narrow * planet_.topOfAtmosphere)
+            --k;
+        const double atEnd = extinctionAt(k, shells_[k + 1]), below = atEnd > 0 ? atEnd : extinctionAt(k, shells_[k]);
+        if (!(below > 0 && above <= left * below))
+            continue;
+        end = k + 1;
+        const auto depthUnder = [&](double way) {
+            double depth = 0;
+            for (int i = intervalAt(edge - way); i < static_cast<int>(shells_.size()) - 1 && shells_[i] < edge; ++i)
+                depth += depthInShell(*this, largest, i, std::max(edge - way, shells_[i]), shells_[i + 1]);
+            return depth;
+        };
+        // The lowest Sun that lights what is below shines along the horizontal, or from the upper limb of a disc.
+        const auto slantDepth = [&](double way) {
+            const double slant = std::sqrt(2 * (planet_.radius + edge) / way + 1);
+            return depthUnder(way) * (medium.sunAngularRadius > 0 ? std::min(slant, 1 / medium.sunAngularRadius) : slant);
+        };
+        double way = edge;
+        while (depthUnder(way) > 1)
+            way /= 2;
+        int halvings = 0;
+        while (halvings < most && slantDepth(std::ldexp(way, -halvings)) > little)
+            ++halvings;
+        if (halvings >= least)
+            edges_.push_back({edge, way, halvings});
+    }
+    std::reverse(edges_.begin(), edges_.end());
+}
+
+Profile Profile::withShellsUnderEdges() const
+{
+    std::vector<double> altitudes;
+    for (const UpperEdge& edge : edges_)
+        for (int i = 0; i <= edge.halvings; ++i)
+            altitudes.push_back(edge.altitude - std::ldexp(edge.way, -i));
+    Profile finer = withShellsAt(altitudes, 1e-12);
+    size_t k = 0;
+    for (const UpperEdge& edge : edges_) {
+        const double skin = std::ldexp(edge.way, -edge.halvings);
+        for (; k + 1 < finer.shells_.size() && finer.shells_[k + 1] <= edge.altitude; ++k) {
+            const double far = edge.altitude - finer.shells_[k], near = edge.altitude - finer.shells_[k + 1];
+            if (far <= edge.way * (1 + 1e-6))
+                finer.halvings_[k] = std::log2(std::max(far, 0.5 * skin) / std::max(near, 0.5 * skin));
+        }
+    }
+    return finer;
+}
+
+Profile Profile::withShellsAt(const std::vector<double>& altitudes, const double closestShare) const
+{
+    const double closest = closestShare * planet_.topOfAtmosphere;
     Profile finer = *this;
     finer.shells_ = {shells_.front()};
     finer.segments_ = {};
     finer.steepness_.clear();
+    finer.halvings_.clear();
     for (size_t k = 0; k + 1 < shells_.size(); ++k) {
         std::vector<double> ends;
         for (const double h : altitudes)
@@ -113,6 +182,7 @@ Profile Profile::withShellsAt(const std::vector<double>& altitudes) const
                                     segments_.logarithmic[at]);
             }
             finer.steepness_.push_back(steepness_[k]);
+            finer.halvings_.push_back(0);
             finer.shells_.push_back(end);
         }
     }
@@ -139,10 +209,11 @@ void Profile::densities(const int interval, const double altitude, double* const
                    values);
 }
 
-double depthInShell(const Profile& profile, const std::vector<double>& crossSections, const int interval, const double altitude)
+double depthInShell(const Profile& profile, const std::vector<double>& crossSections, const int interval, const double bottom,
+                    const double altitude)
 {
     constexpr int points = 8; // shells may be scale heights thick
-    const double bottom = profile.shells()[interval], thickness = altitude - bottom;
+    const double thickness = altitude - bottom;
     std::vector<double> n(crossSections.size());
     double mean = 0;
     for (int q = 0; q < points; ++q) {
@@ -158,7 +229,7 @@ std::vector<double> depthBelowShells(const Profile& profile, const std::vector<d
     const auto& shells = profile.shells();
     std::vector<double> depth(shells.size(), 0.);
     for (size_t k = 0; k + 1 < shells.size(); ++k)
-        depth[k + 1] = depth[k] + depthInShell(profile, crossSections, static_cast<int>(k), shells[k + 1]);
+        depth[k + 1] = depth[k] + depthInShell(profile, crossSections, static_cast<int>(k), shells[k], shells[k + 1]);
     return depth;
 }
 

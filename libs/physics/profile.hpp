@@ -14,7 +14,11 @@ public:
     explicit Profile(const Medium& medium, double tolerance = 3e-4);
 
     /// The same densities with more shells, at these altitudes: where a field bends more than the air does.
-    Profile withShellsAt(const std::vector<double>& altitudes) const;
+    ///   closest  to a shell that is there, share of the atmosphere
+    Profile withShellsAt(const std::vector<double>& altitudes, double closest = 1e-7) const;
+    /// The same with shells under every upper edge of the air, ever closer: a low Sun lights only a skin of it, the thinner the lower the
+    /// Sun is. For rays that shall resolve that.
+    Profile withShellsUnderEdges() const;
 
     const Planet& planet() const { return planet_; }
     int speciesCount() const { return species_; }
@@ -29,6 +33,8 @@ public:
     bool logarithmic(int interval, int species) const { return segments_.logarithmic[std::size_t(interval) * species_ + species] > 0; }
     /// Largest |d ln n / dh| of the species that matter in interval k, m^-1.
     double steepness(int interval) const { return steepness_[interval]; }
+    /// How often the way to an upper edge is halved in interval k, 0 where no edge is above.
+    double halvings(int interval) const { return halvings_[interval]; }
 
 private:
     /// Densities between two shells, as the compiler's vectors want them, [interval][species]: exp(start + slope dh) where `logarithmic` is 1, start +
@@ -37,18 +43,27 @@ private:
         std::vector<double> start, slope, logarithmic;
         void add(double atStart, double along, double isLogarithmic);
     };
+    /// Where air ends at once upwards, or nearly so.
+    struct UpperEdge {
+        double altitude; ///< m
+        double way;      ///< m, below it: within a half of where the optical depth is 1
+        int halvings;    ///< of that way, until the lowest Sun shines through what is left
+    };
+    void findUpperEdges(const Medium& medium);
+
     Planet planet_;
     int species_ = 0;
     std::vector<double> shells_;
     Segments segments_;
-    std::vector<double> steepness_;
+    std::vector<double> steepness_, halvings_;
+    std::vector<UpperEdge> edges_;
 };
 
 /// Vertical optical depth of the air below each shell, [shells].
 ///   crossSections  [species], m^2
 std::vector<double> depthBelowShells(const Profile& profile, const std::vector<double>& crossSections);
-/// Vertical optical depth between the shell `interval` and an altitude over it, below the next.
-double depthInShell(const Profile& profile, const std::vector<double>& crossSections, int interval, double altitude);
+/// Vertical optical depth between two altitudes of one interval.
+double depthInShell(const Profile& profile, const std::vector<double>& crossSections, int interval, double bottom, double altitude);
 
 /// How far below the horizontal the horizon is seen, rad, from the shell above which less than a hundred-thousandth of the optical depth is left.
 double dipOfAir(const Profile& profile, const std::vector<double>& crossSections);

@@ -48,7 +48,8 @@ void passCell(const double* __restrict tau, int wavelengths, double* __restrict 
 
 } // namespace
 
-RayTracer::RayTracer(const Profile& profile, const Optics& optics, const double cellScale) : profile_(profile), optics_(optics)
+RayTracer::RayTracer(const Profile& profile, const Optics& optics, const double cellScale)
+    : profile_(profile), underEdges_(profile.withShellsUnderEdges()), optics_(optics)
 {
     limits_.steepness *= cellScale;
     limits_.length *= cellScale;
@@ -60,22 +61,24 @@ RayTracer::RayTracer(const Profile& profile, const Optics& optics, const double 
     }
 }
 
-void RayTracer::walk(const double h, const double mu, const bool hitsGround, const CellLimits& limits, const double deepest)
+void RayTracer::walk(const Profile& profile, const double h, const double mu, const bool hitsGround, const CellLimits& limits,
+                     const double deepest)
 {
-    const auto& p = profile_.planet();
-    const auto& shells = profile_.shells();
+    const auto& p = profile.planet();
+    const auto& shells = profile.shells();
     const double r = p.radius + h;
     const double length = hitsGround ? distanceToGround(p, h, mu) : distanceToTop(p, h, mu);
-    const int species = profile_.speciesCount();
+    const int species = profile.speciesCount();
     bounds_.assign(1, 0);
     altitudes_.assign(1, h);
     columns_.clear();
     centres_.clear();
+    halvings_.clear();
     if (!(length > 0))
         return;
 
     std::vector<double> n(species), m(species);
-    int k = profile_.intervalAt(h);
+    int k = profile.intervalAt(h);
     bool down = mu < 0;
     if (down && h <= shells[k] && k > 0)
         --k;
@@ -105,10 +108,10 @@ void RayTracer::walk(const double h, const double mu, const bool hitsGround, con
         s1 = std::clamp(s1, s0, length);
         if (s1 > s0) {
             const double h0 = altitudeAlong(p, h, mu, s0), h1 = altitudeAlong(p, h, mu, s1);
-            Stretch stretch{s0, s1, length, profile_.steepness(k) * std::abs(h1 - h0), 0, 0};
+            Stretch stretch{s0, s1, length, profile.steepness(k) * std::abs(h1 - h0), 0, 0};
             if (std::isfinite(limits.depth)) {
-                profile_.densities(k, 0.5 * (h0 + h1), n.data());
-                profile_.densities(k, h0, m.data());
+                profile.densities(k, 0.5 * (h0 + h1), n.data());
+                profile.densities(k, h0, m.data());
                 for (int s = 0; s < species; ++s) {
                     stretch.depth += n[s] * maxExtinction_[s] * (s1 - s0);
                     stretch.near += m[s] * maxExtinction_[s] * (s1 - s0);
@@ -119,8 +122,8 @@ void RayTracer::walk(const double h, const double mu, const bool hitsGround, con
             for (int c = 1; c <= cells; ++c) {
                 const double a = bounds_.back(), b = c == cells ? s1 : division.end(c);
                 const double offset = 0.5 * (b - a) / std::sqrt(3.), middle = 0.5 * (a + b);
-                profile_.densities(k, altitudeAlong(p, h, mu, middle - offset), n.data());
-                profile_.densities(k, altitudeAlong(p, h, mu, middle + offset), m.data());
+                profile.densities(k, altitudeAlong(p, h, mu, middle - offset), n.data());
+                profile.densities(k, altitudeAlong(p, h, mu, middle + offset), m.data());
                 for (int s = 0; s < species; ++s) {
                     const double both = n[s] + m[s];
                     columns_.push_back(0.5 * (b - a) * both);
@@ -129,6 +132,8 @@ void RayTracer::walk(const double h, const double mu, const bool hitsGround, con
                 }
                 bounds_.push_back(b);
                 altitudes_.push_back(altitudeAlong(p, h, mu, b));
+                halvings_.push_back(profile.halvings(k) * std::abs(altitudes_.back() - altitudes_[altitudes_.size() - 2]) /
+                                    (shells[k + 1] - shells[k]));
                 if (passed > deepest)
                     return;
             }
@@ -145,7 +150,7 @@ void RayTracer::walk(const double h, const double mu, const bool hitsGround, con
 
 RayCells RayTracer::cells(const double altitude, const double mu, const bool hits, const double deepest)
 {
-    walk(altitude, mu, hits, limits_, deepest);
+    walk(underEdges_, altitude, mu, hits, limits_, deepest);
     return {altitude, mu, hits, bounds_, altitudes_, columns_, centres_};
 }
 
@@ -153,7 +158,7 @@ void RayTracer::columns(const double altitude, const double mu, double* const re
 {
     CellLimits limits = limits_;
     limits.depth = std::numeric_limits<double>::infinity(); // nobody looks into a cell
-    walk(altitude, mu, false, limits, deepest);
+    walk(profile_, altitude, mu, false, limits, deepest);
     const int species = profile_.speciesCount();
     std::fill(result, result + species, 0.);
     for (size_t i = 0; i < columns_.size(); ++i)
@@ -162,7 +167,7 @@ void RayTracer::columns(const double altitude, const double mu, double* const re
 
 SeenColumns RayTracer::seen(const double altitude, const double mu, const bool hits)
 {
-    walk(altitude, mu, hits, limits_);
+    walk(underEdges_, altitude, mu, hits, limits_);
     const int wavelengths = optics_.wavelengths, species = optics_.species;
     const int cells = static_cast<int>(bounds_.size()) - 1, scatterers = static_cast<int>(optics_.scatterers.size());
     SeenColumns result{bounds_, std::vector<double>(size_t(cells + 1) * scatterers * wavelengths, 0.), {}, {}};
@@ -193,7 +198,7 @@ SeenColumns RayTracer::seen(const double altitude, const double mu, const bool h
 
 RayNodes RayTracer::trace(const double altitude, const double mu, const int count, const bool hits, const NodesFor nodesFor)
 {
-    walk(altitude, mu, hits, limits_);
+    walk(underEdges_, altitude, mu, hits, limits_);
     const auto& p = profile_.planet();
     const double r = p.radius + altitude;
     const int wavelengths = optics_.wavelengths, species = optics_.species;
@@ -204,7 +209,6 @@ RayNodes RayTracer::trace(const double altitude, const double mu, const int coun
     // What each cell contributes: sum over species of sigma_sca N T (1 - exp(-tau)) / tau, the exact mean over the cell.
     std::vector<double> depth(wavelengths, 0.), seen(cells * wavelengths), measure(cells + 1, 0.);
     std::vector<NodeShares> shares(cells);
-    NodeShares whole;
     // A cell's light comes from its centre of density, shifted towards the viewer by attenuation (in lengths of the cell).
     std::vector<double> shift(cells * wavelengths);
     std::vector<double> transmittance(wavelengths, 1.);
@@ -222,12 +226,13 @@ RayNodes RayTracer::trace(const double altitude, const double mu, const int coun
             for (int w = 0; w < wavelengths; ++w)
                 scattered += column[s] * optics_.scattering[s * wavelengths + w] * mean[w];
         const double way = bounds_[c + 1] - bounds_[c], slant = way > 0 ? std::abs(altitudes_[c + 1] - altitudes_[c]) / way : 0;
-        shares[c] = {scattered, std::abs(horizonDistance(p, altitudes_[c + 1]) - horizonDistance(p, altitudes_[c])), way,
-                     std::accumulate(tau.begin(), tau.end(), 0.) / wavelengths * slant};
-        whole += shares[c];
+        const double depthAlong = std::accumulate(tau.begin(), tau.end(), 0.) / wavelengths;
+        shares[c] = {scattered,    std::abs(horizonDistance(p, altitudes_[c + 1]) - horizonDistance(p, altitudes_[c])),
+                     way,          depthAlong * slant,
+                     halvings_[c], depthAlong};
     }
 
-    const NodeMeasure nodeMeasure(whole, nodesFor);
+    const NodeMeasure nodeMeasure(weighedAsSeen(shares), nodesFor);
     for (int c = 0; c < cells; ++c)
         measure[c + 1] = measure[c] + nodeMeasure.of(shares[c]);
     std::vector<double> position(count, 0.);

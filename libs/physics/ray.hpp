@@ -70,10 +70,11 @@ public:
     void columns(double altitude, double mu, double* result, double deepest = std::numeric_limits<double>::infinity());
 
 private:
-    void walk(double altitude, double mu, bool hitsGround, const CellLimits& limits,
+    void walk(const Profile& profile, double altitude, double mu, bool hitsGround, const CellLimits& limits,
               double deepest = std::numeric_limits<double>::infinity());
 
     const Profile& profile_;
+    const Profile underEdges_; // the same, with shells there
     const Optics& optics_;
     CellLimits limits_;
     std::vector<double> bounds_;  // [cells + 1], distances
@@ -81,6 +82,7 @@ private:
     std::vector<double> centres_; // [cells][species], centre of mass along the cell, 0..1
     std::vector<CellPart> parts_;
     std::vector<double> altitudes_;                     // [cells + 1]
+    std::vector<double> halvings_;                      // [cells], of the way to an upper edge of the air
     std::vector<double> maxExtinction_, minExtinction_; // [species]
 };
 

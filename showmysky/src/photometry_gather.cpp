@@ -173,10 +173,11 @@ void interpolatePhase(const Block* low, const Block* high, float x, bool logarit
 // Opposite to a sharp peak the degrees nearly cancel: what is taken as straight there was 70 % of the light.
 FastGather::FastGather(const physics::Medium& medium, const physics::Optics& optics, const physics::SunTable& sun,
                        const physics::Moments* moments, const Effort& effort)
-    : sun_(sun), moments_(moments), planet_{medium.planetRadius, medium.topOfAtmosphere}, profile_(medium, effort.profileTolerance),
-      folder_(profile_, optics, effort), wavelengths_(optics.wavelengths), blocks_(folder_.blocks()), scatterers_(folder_.scatterers()),
-      degree_(optics.degree), bentDegree_(physics::truncates(optics) ? optics.degree : physics::bentDegree(optics)),
-      sunRadius_(medium.sunAngularRadius), angles_(medium.scatteringAngles)
+    : sun_(sun), moments_(moments), planet_{medium.planetRadius, medium.topOfAtmosphere},
+      profile_(physics::Profile(medium, effort.profileTolerance).withShellsUnderEdges()), folder_(profile_, optics, effort),
+      wavelengths_(optics.wavelengths), blocks_(folder_.blocks()), scatterers_(folder_.scatterers()), degree_(optics.degree),
+      bentDegree_(physics::truncates(optics) ? optics.degree : physics::bentDegree(optics)), sunRadius_(medium.sunAngularRadius),
+      angles_(medium.scatteringAngles)
 {
     const auto& depths = sun.opticalDepths();
     depth_ = toBlocks(depths.data(), depths.size() / wavelengths_, wavelengths_);

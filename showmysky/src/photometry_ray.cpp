@@ -307,15 +307,18 @@ void RayFolder::trace(const double altitude, const double mu, FastRay& ray) cons
                         ray.depth.data()};
     foldCells(loop);
 
-    physics::NodeShares whole;
+    const auto& shells = profile_.shells();
     double from = physics::horizonDistance(p, altitude);
     for (int c = 0; c < ray.cells; ++c) {
         const double to = physics::horizonDistance(p, ray.heights[c + 1]), way = ray.bounds[c + 1] - ray.bounds[c];
         const double slant = way > 0 ? std::abs(ray.heights[c + 1] - ray.heights[c]) / way : 0;
-        ray.shares[c] = {double(ray.light[c]), std::abs(to - from), way, double(ray.depth[c]) / wavelengths_ * slant};
-        whole += ray.shares[c];
+        const double depth = double(ray.depth[c]) / wavelengths_, climb = std::abs(ray.heights[c + 1] - ray.heights[c]);
+        const int interval = ray.intervals[c];
+        const double halvings = profile_.halvings(interval) * climb / (shells[interval + 1] - shells[interval]);
+        ray.shares[c] = {double(ray.light[c]), std::abs(to - from), way, depth * slant, halvings, depth};
         from = to;
     }
+    const physics::NodeShares whole = physics::weighedAsSeen(ray.shares);
     const auto place = [&](int nodes, physics::NodesFor nodesFor, NodeSet& set) {
         placeNodes(ray, nodes, physics::NodeMeasure(whole, nodesFor), set);
         foldWeights(loop, ray.parts, nodes, set.weights.data());

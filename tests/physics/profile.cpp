@@ -119,3 +119,32 @@ TEST_CASE("profile: every altitude has its interval, the ends included")
     CHECK(profile.intervalAt(-1) == 0);  // rounding below the ground
     CHECK(profile.intervalAt(100) == 2); // and above the top
 }
+
+TEST_CASE("profile: under an upper edge shells halve the way to it, as far as a low Sun shines")
+{
+    // Extinction of one per metre: a disc of 0.01 rad shines through 0.3 of it along a way of 3 mm, nine halvings below a metre.
+    Medium medium = withDensity(base(), {0, 400, 400.0001, 500, 500.0001, 1000}, {0, 0, 1, 1, 0, 0});
+    medium.species[0].extinctionCrossSection = {1};
+    medium.sunAngularRadius = 0.01;
+    const Profile profile(medium), finer = profile.withShellsUnderEdges();
+    CHECK(finer.shells().size() == profile.shells().size() + 10);
+    double halvings = 0;
+    for (int k = 0; k + 1 < static_cast<int>(finer.shells().size()); ++k) {
+        halvings += finer.halvings(k);
+        CHECK((finer.halvings(k) > 0) == (finer.shells()[k] > 499 && finer.shells()[k] < 500)); // what is left counts as one
+    }
+    for (const double altitude : {200., 400.00005, 450., 499.9, 499.9999, 500.00005, 700.})
+        CHECK(density(finer, altitude) == Approx(density(profile, altitude)).epsilon(1e-9).margin(1e-12));
+    CHECK(halvings == Approx(10));
+    // A point shines along the horizontal: so thin is the skin that it lights.
+    medium.sunAngularRadius = 0;
+    CHECK(Profile(medium).withShellsUnderEdges().shells().size() > finer.shells().size());
+}
+
+TEST_CASE("profile: air that thins out has no edge, nor has a layer in other air")
+{
+    for (const auto& medium : {sky::test::exponentialAir(0.5), sky::test::haze(1.25), sky::test::sampleEarth(sky::test::Aerosol::Yes)}) {
+        const Profile profile(medium);
+        CHECK(profile.withShellsUnderEdges().shells() == profile.shells());
+    }
+}

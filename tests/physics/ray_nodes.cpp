@@ -28,6 +28,28 @@ TEST_CASE("ray nodes: closer than cells, each has its share of a thin layer's li
     CHECK(centre == Approx(500).epsilon(1e-3));
 }
 
+TEST_CASE("ray nodes: where light comes from, not in empty air nor behind opaque air")
+{
+    // Two layers in a vacuum, the lower one so thick that a few metres of it hide the rest.
+    const auto medium = sky::test::withDensity(sky::test::layer(1, 1, 0, sky::test::isotropicPhase),
+                                               {0, 100, 100.001, 200, 200.001, 800, 800.001, 900, 900.001, 1000}, //
+                                               {0, 0, 1e5, 1e5, 0, 0, 1, 1, 0, 0});
+    const Profile profile(medium);
+    const Optics optics = makeOptics(medium, 2, false);
+    RayTracer tracer(profile, optics);
+    for (const auto nodesFor : {NodesFor::Sunlight, NodesFor::Field}) {
+        const RayNodes ray = tracer.trace(1000, -0.7, 40, true, nodesFor);
+        const auto within = [&](double low, double high) {
+            return std::count_if(ray.nodes.begin(), ray.nodes.end(),
+                                 [&](const RayNodes::Node& node) { return node.altitude >= low && node.altitude <= high; });
+        };
+        CHECK(within(799.99, 900.01) + within(199, 200.01) >=
+              37); // the ends of the ray have a node each, and the way between the layers may
+        CHECK(within(799.99, 900.01) >= 6);
+        CHECK(within(199, 200.01) >= 6);
+    }
+}
+
 TEST_CASE("ray nodes: cut at nodes, a cell's light keeps its amount and its centre")
 {
     for (const double centre : {0.2, 0.45, 0.5, 0.62}) {

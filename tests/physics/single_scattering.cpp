@@ -59,6 +59,22 @@ TEST_CASE("single scattering: flat homogeneous air in closed form")
         }
 }
 
+TEST_CASE("single scattering: a low Sun lights only a skin of thick air, in closed form")
+{
+    // Seen from above: p mu0/(mu0 + mu), from a part mu0 / tau of the layer. Under the top, and under an edge in a vacuum.
+    const double tau = 300;
+    const Medium upToTop = sky::test::layer(tau, 1, 0, sky::test::isotropicPhase);
+    for (const Medium& medium : {upToTop, sky::test::withDensity(upToTop, {0, 400, 400.0001, 500, 500.0001, 1000}, {0, 0, 10, 10, 0, 0})}) {
+        Sky sky(medium);
+        for (const double muSun : {0.5, 0.05, 0.005, 0.001})
+            for (const double mu : {1., 0.5, 0.1}) {
+                INFO("shells " << sky.profile.shells().size() << ", muSun " << muSun << " mu " << mu);
+                // Sunlight is taken as linear between nodes, of which each halving of the way to the edge has some.
+                CHECK(sky.single(1000, -mu, muSun, -mu * muSun)[0] == Approx(muSun / (muSun + mu) / (4 * pi)).epsilon(0.03));
+            }
+    }
+}
+
 TEST_CASE("single scattering: linear in optical depth when thin")
 {
     Sky one(sky::test::exponentialAir(1e-6)), two(sky::test::exponentialAir(2e-6));

@@ -1,0 +1,29 @@
+// Photometry at sharp upper edges of the air, where a low Sun lights only a skin of it.
+
+#include "../physics/media.hpp"
+#include "photometry_gather.hpp"
+#include <catch2/catch.hpp>
+
+namespace physics = sky::physics;
+using sky::test::pi;
+
+TEST_CASE("photometry: a low Sun lights only a skin of thick air, in closed form")
+{
+    // Seen from above: p mu0/(mu0 + mu), from a part mu0 / tau of the layer. Under the top, and under an edge in a vacuum.
+    const double tau = 300;
+    const physics::Medium upToTop = sky::test::layer(tau, 1, 0, sky::test::isotropicPhase);
+    for (const auto& medium : {upToTop, sky::test::withDensity(upToTop, {0, 400, 400.0001, 500, 500.0001, 1000}, {0, 0, 10, 10, 0, 0})}) {
+        const physics::Profile profile(medium);
+        const physics::Optics optics = physics::makeOptics(medium, 4, false);
+        const physics::SunTable sun(profile, optics, medium.sunAngularRadius);
+        const showmysky::FastGather gather(medium, optics, sun, nullptr);
+        showmysky::FastScratch scratch;
+        for (const double muSun : {0.5, 0.05, 0.005, 0.001})
+            for (const double mu : {1., 0.5, 0.1}) {
+                double light = -1;
+                gather.radiance(scratch, 1000, -mu, muSun, -mu * muSun, {true, false, true}, &light);
+                INFO("shells " << profile.shells().size() << ", muSun " << muSun << " mu " << mu);
+                CHECK(light == Approx(muSun / (muSun + mu) / (4 * pi)).epsilon(0.05));
+            }
+    }
+}
