@@ -12,6 +12,15 @@ constexpr double halvingTolerance = 2e-5;
 constexpr int mostHalvings = 4;
 constexpr double costOfHalving = 6; // each takes 4 to 8 times as long as the one before
 
+/// Steps that even ones in a segment may be at most, before they are halved.
+constexpr int mostSteps = 64;
+
+/// Power with which steps crowd at both ends of a segment, where its light is if it is too deep for even steps: the first is half a mean free path.
+double crowdingAtEnds(double opticalDepth) { return std::max(1., std::log(opticalDepth) / std::log(mostSteps / 2)); }
+
+/// Place 0..1 in a segment after a share x of its steps.
+double crowded(double x, double power) { return x < 0.5 ? 0.5 * std::pow(2 * x, power) : 1 - 0.5 * std::pow(2 - 2 * x, power); }
+
 double integrate(const Air& air, const Scene& scene, const Leg& leg, int halvings)
 {
     const Profile& profile = air.profile();
@@ -24,11 +33,12 @@ double integrate(const Air& air, const Scene& scene, const Leg& leg, int halving
         // A step is short against the mean free path and against the turning of the vertical along the ray.
         const double length = segment.end - segment.begin;
         const double turns = length / (radius + scene.camera.altitude) / 0.003;
-        const int count = std::clamp(static_cast<int>(std::ceil(std::max(2 * segment.opticalDepth, turns))), 1, 64) << halvings;
-        const double step = length / count;
-        for (int i = 0; i < count; ++i)
+        const int count = std::clamp(static_cast<int>(std::ceil(std::max(2 * segment.opticalDepth, turns))), 1, mostSteps) << halvings;
+        const double crowding = crowdingAtEnds(segment.opticalDepth);
+        for (int i = 0; i < count; ++i) {
+            const double from = length * crowded(double(i) / count, crowding), step = length * crowded((i + 1.) / count, crowding) - from;
             for (std::size_t k = 0; k < steps.node.size(); ++k) {
-                const double s = segment.begin + step * (i + 0.5 + 0.5 * steps.node[k]);
+                const double s = segment.begin + from + step * (0.5 + 0.5 * steps.node[k]);
                 const Place place = moved(radius, scene.camera, scene.view, ray, s);
                 air.at(place.altitude, local);
                 const double depth = depthBefore + profile.partialDepth(ray, segment, s);
@@ -37,6 +47,7 @@ double integrate(const Air& air, const Scene& scene, const Leg& leg, int halving
                 });
                 sum += 0.5 * step * steps.weight[k] * std::exp(-depth) * source;
             }
+        }
         depthBefore += segment.opticalDepth;
     }
     return sum;

@@ -83,6 +83,18 @@ TEST_CASE("single scattering in a homogeneous flat layer: closed form")
     }
 }
 
+TEST_CASE("single scattering of a layer too deep for even steps: closed form")
+{
+    for (const double depth : {300., 3e4, 1e6})
+        for (const double mu0 : {0.4, 0.01}) {
+            const Reference reference(test::flatLayer(depth, 0.8, 0, test::isotropicPhase));
+            const double mu = 0.7, up = 0.8 / (4 * pi) * mu0 / (mu + mu0);
+            INFO("optical depth " << depth << ", Sun " << mu0);
+            // 1e-4: the halved steps' own tolerance of 2e-5, and the bending of the air above a low Sun's light.
+            CHECK(reference.radiance(fromAbove(mu, mu0), fixed(2, 1)).single == Approx(up).epsilon(1e-4));
+        }
+}
+
 TEST_CASE("multiple scattering vanishes as the square of a thin layer")
 {
     const Reference thin(test::flatLayer(1e-6, 1, 0, test::isotropicPhase));
