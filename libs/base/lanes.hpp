@@ -32,7 +32,8 @@ inline float exp2Lane(float x)
     return p * std::bit_cast<float>(exponent);
 }
 
-/// Parts of e^x = scale (1 + rest), -1/2 ln 2 <= ln(1 + rest) <= 1/2 ln 2, for -700 <= x <= 700 (beyond, the nearest of these): errors < 4e-16 of scale.
+/// Parts of e^x = scale (1 + rest), -1/2 ln 2 <= ln(1 + rest) <= 1/2 ln 2, for -700 <= x <= 700 (beyond, the nearest of these): errors <
+/// 4e-16 of scale.
 struct ExponentialParts {
     double scale; ///< a power of two
     double rest;  ///< relative error < 1e-15

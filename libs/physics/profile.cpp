@@ -18,8 +18,8 @@ struct Curve {
     const std::vector<double>& densities;
     double negligible; ///< m^-3
 
-    /// Whether a chord from one node to another follows the density as far as `tolerance`. It must not bridge a jump's foot: equality at every
-    /// node in between is enough.
+    /// Whether a chord from one node to another follows the density as far as `tolerance`. It must not bridge a jump's foot: equality at
+    /// every node in between is enough.
     ///   logarithmic  straight is the logarithm, not the density
     bool followedBy(size_t a, size_t b, bool logarithmic, double tolerance) const
     {
@@ -32,8 +32,8 @@ struct Curve {
         }
         return true;
     }
-    /// Neighbours are joined as the medium has it. Farther apart, where the logarithm is not straight the density itself may be: where it goes to
-    /// zero, chords of the logarithm would go on for hundreds of shells.
+    /// Neighbours are joined as the medium has it. Farther apart, where the logarithm is not straight the density itself may be: where it
+    /// goes to zero, chords of the logarithm would go on for hundreds of shells.
     bool logarithmic(size_t a, size_t b, double tolerance) const
     {
         return densities[a] > 0 && densities[b] > 0 && followedBy(a, b, true, tolerance);

@@ -37,8 +37,8 @@ public:
     double halvings(int interval) const { return halvings_[interval]; }
 
 private:
-    /// Densities between two shells, as the compiler's vectors want them, [interval][species]: exp(start + slope dh) where `logarithmic` is 1, start +
-    /// slope dh where it is 0.
+    /// Densities between two shells, as the compiler's vectors want them, [interval][species]: exp(start + slope dh) where `logarithmic`
+    /// is 1, start + slope dh where it is 0.
     struct Segments {
         std::vector<double> start, slope, logarithmic;
         void add(double atStart, double along, double isLogarithmic);
@@ -65,11 +65,12 @@ std::vector<double> depthBelowShells(const Profile& profile, const std::vector<d
 /// Vertical optical depth between two altitudes of one interval.
 double depthInShell(const Profile& profile, const std::vector<double>& crossSections, int interval, double bottom, double altitude);
 
-/// How far below the horizontal the horizon is seen, rad, from the shell above which less than a hundred-thousandth of the optical depth is left.
+/// How far below the horizontal the horizon is seen, rad, from the shell above which less than a hundred-thousandth of the optical depth
+/// is left.
 double dipOfAir(const Profile& profile, const std::vector<double>& crossSections);
 
-/// The angle over which the Sun goes out in the usual air, dip of the horizon and diameter of the disc, rad: the Earth's. Axes over the Sun's elevation
-/// are made for it, and narrower in proportion where it is less.
+/// The angle over which the Sun goes out in the usual air, dip of the horizon and diameter of the disc, rad: the Earth's. Axes over the
+/// Sun's elevation are made for it, and narrower in proportion where it is less.
 constexpr double usualSunset = 0.15;
 
 } // namespace sky::physics

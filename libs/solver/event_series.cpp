@@ -7,24 +7,41 @@ namespace sky::solver {
 
 namespace {
 
-/// Light fainter than this part of the brightest, over levels and Suns, decides nothing.
-constexpr double faintest = 1e-7;
 /// Events from which the rest is told: each that is kept takes the memory of a whole field.
 constexpr std::size_t mostKept = 8;
 
-void addTo(std::vector<double>& sum, const std::vector<double>& values)
+void addTo(std::vector<double>& sum, const std::vector<double>& values, double factor)
 {
     sum.resize(values.size(), 0.);
     for (std::size_t i = 0; i < values.size(); ++i)
-        sum[i] += values[i];
+        sum[i] += factor * values[i];
 }
 
 } // namespace
 
+void addTo(Sums& sum, const Sums& other, const double factor)
+{
+    addTo(sum.moments, other.moments, factor);
+    addTo(sum.irradiance, other.irradiance, factor);
+}
+
+double relativeChange(const std::vector<double>& now, const std::vector<double>& then)
+{
+    const double least = faintest * *std::max_element(now.begin(), now.end());
+    double squares = 0;
+    std::size_t lit = 0;
+    for (std::size_t i = 0; i < now.size(); ++i)
+        if (now[i] > least) {
+            const double relative = (now[i] - then[i]) / now[i];
+            squares += relative * relative;
+            ++lit;
+        }
+    return lit > 0 ? std::sqrt(squares / double(lit)) : 0;
+}
+
 void EventSeries::add(const Sums& event)
 {
-    addTo(sum_.moments, event.moments);
-    addTo(sum_.irradiance, event.irradiance);
+    addTo(sum_, event, 1);
     if (whole_) {
         if (kept_.size() == mostKept)
             kept_.erase(kept_.begin());
@@ -43,18 +60,8 @@ void EventSeries::add(const Sums& event)
             for (std::size_t k = 0; k < n; ++k)
                 means_.back() += weights[k] * double(kept_[k].moments[at]);
         }
-    if (then.empty())
-        return;
-    const double least = faintest * *std::max_element(means_.begin(), means_.end());
-    double squares = 0;
-    std::size_t lit = 0;
-    for (std::size_t i = 0; i < means_.size(); ++i)
-        if (means_[i] > least) {
-            const double relative = (means_[i] - then[i]) / means_[i];
-            squares += relative * relative;
-            ++lit;
-        }
-    change_ = lit > 0 ? std::sqrt(squares / double(lit)) : 0;
+    if (!then.empty())
+        change_ = relativeChange(means_, then);
 }
 
 Sums EventSeries::total() const

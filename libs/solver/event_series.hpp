@@ -10,6 +10,15 @@ struct Sums {
     std::vector<double> irradiance; ///< [altitude][sun][wavelength], downward
 };
 
+/// Light fainter than this part of the brightest, over levels and Suns, decides nothing.
+constexpr double faintest = 1e-7;
+
+/// Adds `factor` times other light of the same places; to nothing too.
+void addTo(Sums& sum, const Sums& other, double factor);
+
+/// Relative difference between two answers for the light of some places, rms over those that are lit at all.
+double relativeChange(const std::vector<double>& now, const std::vector<double>& then);
+
 /// The light of all events from that of the first ones. Each event follows from the last by the same operator, so where the
 /// series shall be whole, physics::seriesFactors close it, with one set of factors a wavelength, chosen by the relative difference of
 /// I_00 over all levels and Suns that are lit at all.

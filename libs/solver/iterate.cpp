@@ -4,6 +4,7 @@
 #include "base/parallel.hpp"
 #include "physics/harmonics.hpp"
 #include "solver/event_series.hpp"
+#include "solver/event_tail.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -13,6 +14,10 @@ namespace {
 
 using base::pi;
 constexpr int mostEvents = 200;
+/// Events that are computed one by one where all are wanted. What then is not closed dies out slowly: light in deep air.
+constexpr int mostSingly = 16;
+/// Times that light to begin with is told anew, from its own shape.
+constexpr int reshapings = 3;
 
 using physics::harmonicCount;
 using physics::harmonicIndex;
@@ -87,6 +92,24 @@ public:
         return checked(std::move(sums));
     }
 
+    /// The same scattering, of light that is everywhere the same; once scattered() has traced the rays.
+    ///   light  what there is of it, for its shape; null: as bright everywhere
+    LayeredLight layers(const Sums* light, bool straight) const
+    {
+        const int levels = grid_.altitudeCount(), wavelengths = scene_.optics.wavelengths;
+        const std::size_t perPoint = std::size_t(harmonicCount(settings_.degree)) * wavelengths;
+        std::vector<double> shape(std::size_t(levels) * wavelengths, light ? physics::darkness : 1);
+        if (light)
+            for (std::size_t point = 0; point < std::size_t(levels) * samples_.suns; ++point)
+                for (int w = 0; w < wavelengths; ++w)
+                    shape[point / samples_.suns * wavelengths + w] += std::max(0., light->moments[point * perPoint + w]);
+        LayeredLight result(std::move(shape), wavelengths, settings_.degree, straight);
+        for (const Block& block : blocks_)
+            result.add(*block.scattered, directions_, block.firstLevel, block.levels);
+        result.factorise();
+        return result;
+    }
+
     physics::Moments toMoments(const Sums& sums) const
     {
         const int count = harmonicCount(settings_.degree), wavelengths = scene_.optics.wavelengths;
@@ -104,6 +127,8 @@ public:
         m.groundIrradiance.assign(sums.irradiance.begin(), sums.irradiance.begin() + grid_.sunCount() * wavelengths);
         return m;
     }
+
+    int suns() const { return samples_.suns; }
 
 private:
     bool lightApart() const { return lightAzimuths_ < settings_.azimuths; }
@@ -222,6 +247,32 @@ private:
     std::optional<ScatteredGather> gather_;
 };
 
+/// All light, where each event is so little weaker than the last that those to come are told from sweeps over all of them; nothing where
+/// that does not succeed.
+///   sum    of the events so far, with the last
+///   field  takes the number of sweeps, and what is left
+std::optional<Sums> closed(Sweeps& sweeps, const Sums& sum, const Sums& last, double tolerance, RadiationField& field, const Breath& breath)
+{
+    Sums earlier = sum;
+    addTo(earlier, last, -1);
+    EventTail tail(last, sweeps.layers(nullptr, true), sweeps.suns());
+    for (int i = 0; i < reshapings; ++i)
+        tail.begin(sweeps.layers(&tail.light(), true));
+    const int singly = field.eventCount;
+    do {
+        const Sums next = sweeps.scattered(sweeps.toMoments(tail.light()), singly + 1, breath);
+        tail.improve(next, earlier, sweeps.layers(&tail.light(), false));
+        ++field.eventCount;
+        field.remainder = tail.remainder();
+        if (tail.stalls()) {
+            field.eventCount = singly;
+            return std::nullopt;
+        }
+    } while (!(field.remainder < tolerance));
+    addTo(earlier, tail.light(), 1);
+    return earlier;
+}
+
 } // namespace
 
 RadiationField iterate(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid, const physics::MomentSettings& settings,
@@ -245,6 +296,7 @@ RadiationField iterate(const gl::Api& api, const Scene& scene, const physics::Mo
             field.perEvent.push_back(sweeps.toMoments(last));
     };
     keep(1);
+    std::optional<Sums> withTail;
     const double tolerance = limit.tolerance > 0 ? limit.tolerance : limit.all ? settings.tolerance : 0;
     for (int event = 2; event <= wanted; ++event) {
         last = sweeps.scattered(sweeps.toMoments(last), event, [&] { breath(fractionOf(event - 1)); });
@@ -254,8 +306,13 @@ RadiationField iterate(const gl::Api& api, const Scene& scene, const physics::Mo
         field.remainder = series.change();
         if (field.remainder < tolerance)
             break;
+        if (limit.all && event == mostSingly) {
+            withTail = closed(sweeps, series.sum(), last, tolerance, field, [&] { breath(fractionOf(field.eventCount)); });
+            if (withTail)
+                break;
+        }
     }
-    const Sums total = series.total();
+    const Sums total = withTail ? *withTail : series.total();
     for (std::size_t i = 0; i < total.irradiance.size(); ++i) // orders beyond the last count with it
         field.irradiance.back()[i] += total.irradiance[i] - series.sum().irradiance[i];
     field.total = sweeps.toMoments(total);

@@ -1,0 +1,123 @@
+#include "solver/event_tail.hpp"
+#include "base/parallel.hpp"
+#include "physics/harmonics.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sky::solver {
+
+namespace {
+
+/// Part of what a sweep saw that a correction leaves at least: light is not negative.
+constexpr double leastLeft = 0.1;
+/// Change by a sweep, of that by the one before, above which nothing is gained.
+constexpr double leastGain = 0.7;
+/// Of the trust in layers that is left where they were wrong.
+constexpr double lessTrust = 0.3;
+
+} // namespace
+
+EventTail::EventTail(const Sums& event, const LayeredLight& layers, const int suns)
+    : event_(event), suns_(suns), wavelengths_(layers.wavelengths()),
+      harmonics_(int(event.moments.size() / event.irradiance.size())), light_{std::vector<double>(event.moments.size(), 0.),
+                                                                              std::vector<double>(event.irradiance.size(), 0.)},
+      trust_(std::size_t(suns) * wavelengths_, 1.), wrong_(trust_.size(), std::numeric_limits<double>::infinity())
+{
+    add(event, layers, 0);
+}
+
+void EventTail::begin(const LayeredLight& layers)
+{
+    addTo(light_, light_, -1);
+    add(event_, layers, 0);
+}
+
+void EventTail::improve(const Sums& next, const Sums& earlier, const LayeredLight& layers)
+{
+    Sums missing = event_;
+    addTo(missing, next, 1);
+    addTo(missing, light_, -1);
+    const auto means = [&] {
+        std::vector<double> result;
+        for (std::size_t first = 0; first < light_.moments.size(); first += std::size_t(harmonics_) * wavelengths_)
+            for (int w = 0; w < wavelengths_; ++w)
+                result.push_back(earlier.moments[first + w] + light_.moments[first + w]);
+        return result;
+    };
+    const auto then = means();
+    const double least = faintest * *std::max_element(then.begin(), then.end());
+    judge(missing, least);
+    add(missing, layers, least);
+    before_ = change_;
+    change_ = relativeChange(means(), then);
+    stalls_ += change_ > leastGain * before_;
+}
+
+void EventTail::judge(const Sums& missing, const double least)
+{
+    const std::size_t step = std::size_t(harmonics_) * wavelengths_, columns = trust_.size();
+    std::vector<double> squares(columns, 0.), lit(columns, 0.);
+    for (std::size_t point = 0; point < light_.moments.size() / step; ++point)
+        for (int w = 0; w < wavelengths_; ++w) {
+            const double mean = light_.moments[point * step + w];
+            if (!(mean > least))
+                continue;
+            const std::size_t column = point % suns_ * wavelengths_ + w;
+            squares[column] += std::pow(missing.moments[point * step + w] / mean, 2);
+            ++lit[column];
+        }
+    for (std::size_t column = 0; column < columns; ++column) {
+        const double wrong = lit[column] > 0 ? std::sqrt(squares[column] / lit[column]) : 0;
+        if (wrong > leastGain * wrong_[column])
+            trust_[column] *= lessTrust;
+        wrong_[column] = wrong;
+    }
+}
+
+void EventTail::add(const Sums& fresh, const LayeredLight& layers, const double least)
+{
+    const std::size_t perPoint = std::size_t(harmonics_) * wavelengths_;
+    const int levels = static_cast<int>(light_.moments.size() / perPoint) / suns_, terms = layers.degree() + 1;
+    addTo(light_, fresh, 1);
+    base::parallel([&](int thread, int threads) {
+        std::vector<double> values(layers.valueCount());
+        for (int job = thread; job < suns_ * wavelengths_; job += threads) {
+            const int sun = job % suns_, w = job / suns_;
+            const auto point = [&](int level) { return std::size_t(level) * suns_ + sun; };
+            const auto at = [&](int level, int l) {
+                return point(level) * perPoint + std::size_t(physics::harmonicIndex(l, 0)) * wavelengths_ + w;
+            };
+            const auto lit = [&](int level) { return light_.moments[at(level, 0)] >= least; };
+            for (int a = 0; a < levels; ++a)
+                for (int l = 0; l < terms; ++l)
+                    values[a * terms + l] = lit(a) ? fresh.moments[at(a, l)] : 0;
+            values.back() = lit(0) ? fresh.irradiance[point(0) * wavelengths_ + w] : 0;
+            layers.addFollowing(w, values.data());
+            const double trust = trust_[std::size_t(sun) * wavelengths_ + w];
+            for (int a = 0; a < levels; ++a) {
+                if (!lit(a))
+                    continue;
+                const double swept = light_.moments[at(a, 0)];
+                for (int l = 0; l < terms; ++l)
+                    light_.moments[at(a, l)] += trust * (values[a * terms + l] - fresh.moments[at(a, l)]);
+                double& mean = light_.moments[at(a, 0)];
+                mean = std::max(mean, leastLeft * swept);
+                double& irradiance = light_.irradiance[point(a) * wavelengths_ + w];
+                if (a == 0)
+                    irradiance = std::max(irradiance + trust * (values.back() - fresh.irradiance[point(0) * wavelengths_ + w]),
+                                          leastLeft * irradiance);
+                else if (swept > 0)
+                    irradiance *= mean / swept;
+            }
+        }
+    });
+}
+
+double EventTail::remainder() const
+{
+    const double ratio = std::min(change_ / std::max(before_, 1e-300), 0.99);
+    return change_ * std::max(1., ratio / (1 - ratio));
+}
+
+} // namespace sky::solver
