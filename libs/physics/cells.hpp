@@ -99,11 +99,13 @@ struct NodeShares {
 };
 
 /// Weighs the cells of a ray, in order, by what the viewer can see of them: the deeper they are in thick air, the less can what they do to
-/// light matter; and cells that scatter nothing, or are hidden behind an optical depth of 46 and more, not at all. Returns what the whole
-/// ray has then.
+/// light matter; cells that scatter nothing count little, and those hidden behind an optical depth of 46 and more not at all. Returns what
+/// the whole ray has then.
 inline NodeShares weighedAsSeen(std::vector<NodeShares>& cells)
 {
     constexpr double unseen = 1e-20; // share of the light that an even ray would send from there
+    constexpr double empty = 0.1;    // what air counts that scatters nothing: the shadow may begin in it,
+    constexpr double hidden = 46;    // but not behind such an optical depth
     constexpr double far = 12;       // optical depth behind which bending counts half,
     constexpr double skin = 1;       // and edges do
     NodeShares whole, seen;
@@ -114,7 +116,7 @@ inline NodeShares weighedAsSeen(std::vector<NodeShares>& cells)
     const double even = unseen * whole.light / whole.way;
     double passed = 0;
     for (NodeShares& cell : cells) {
-        const double counts = cell.light > 0 ? cell.light / (cell.light + even * cell.way) : 0;
+        const double counts = cell.light > 0 ? cell.light / (cell.light + even * cell.way) : passed < hidden ? empty : 0;
         cell.climb *= counts;
         cell.way *= counts;
         cell.dimming *= counts;
