@@ -18,19 +18,18 @@ constexpr int truncatedReach = 5;
 /// so each event would make light from nothing: 1.5 times what came in of g = 0.99 and an optical depth of 10, and more at each lower degree.
 constexpr double mostAtEnd = 0.1;
 
-/// In air too thin for that a series may be cut where it is large, unless its phase function is sharp: one whose moment of this degree is above this
-/// (g = 0.82). Away from its peak, where there is little light, it undershoots, and along horizontal rays through a flat layer even thin air is
-/// deep: light scattered twice was four times too bright for g = 0.9, and below zero.
+/// A phase function is sharp whose moment of this degree is above this (g = 0.82). Where its series is cut it ripples away from its peak, where there is
+/// little light, more than that by far: light scattered twice in the shadow was four times too bright for g = 0.9, or below zero.
 constexpr int sharpDegree = 8;
 constexpr double sharpMoment = 0.2;
 
-/// Last moment of the Gaussian that takes the place of a peak in thin air: little enough for no ripples of its own.
-constexpr double gaussianEnd = 0.01;
-
-/// Legendre moment l of a Gaussian over small angles, exp(-l (l + 1) s), with the width that ends so at the degree.
-double gaussianMoment(const int l, const int degree)
+/// Factor of the Legendre moment l, where a sharp series is let fade to its end. With a power of 1 it is a Gaussian, which has no ripples at all but
+/// changes low moments, and with them diffusion; 2 leaves these, and has ripples for g = 0.99. What lies between was tried on clouds, dust and
+/// generated scenes (docs/method).
+double fading(const int l, const int degree)
 {
-    return degree > 0 ? std::pow(gaussianEnd, l * (l + 1.) / (degree * (degree + 1.))) : 1;
+    constexpr double end = 0.01, power = 1.25;
+    return degree > 0 ? std::pow(end, std::pow(l * (l + 1.) / (degree * (degree + 1.)), power)) : 1;
 }
 
 /// The share f of a phase function that is taken as not scattered at all. Scaling with f replaces every Legendre moment above the degree
@@ -45,8 +44,8 @@ double peakShare(const std::vector<double>& moments, const int degree)
         sum += weight * moments[l];
         weights += weight;
     }
-    const double fading = std::min((moments[degree] - mostAtEnd) / (1 - mostAtEnd), moments[degree + 1]);
-    return weights > 0 ? std::clamp(std::max(sum / weights, fading), 0., 0.999) : 0;
+    const double faded = std::min((moments[degree] - mostAtEnd) / (1 - mostAtEnd), moments[degree + 1]);
+    return weights > 0 ? std::clamp(std::max(sum / weights, faded), 0., 0.999) : 0;
 }
 
 } // namespace
@@ -86,11 +85,13 @@ Optics makeOptics(const Medium& medium, const int degree, const bool truncate)
                     moments = phaseMoments(medium, species, w, std::max(degree + 1, sharpDegree));
                 const bool matters = std::clamp(moments[degree + 1], 0., 0.999) * sigmaScattering * particles > truncationMatters;
                 const int longest = truncatedReach * (degree + 1);
-                if (truncate && (matters || moments[sharpDegree] > sharpMoment)) {
+                if (truncate && matters) {
                     if (static_cast<int>(moments.size()) <= longest)
                         moments = phaseMoments(medium, species, w, longest);
-                    (matters ? f : blurred) = peakShare(moments, degree);
+                    f = peakShare(moments, degree);
                 }
+                if (truncate && moments[sharpDegree] > sharpMoment)
+                    blurred = std::max(0., (moments[degree] - f) / (1 - f));
             }
             optics.truncation[s * wavelengths + w] = f;
             optics.blurred[s * wavelengths + w] = blurred;
@@ -98,7 +99,7 @@ Optics makeOptics(const Medium& medium, const int degree, const bool truncate)
             optics.scattering[s * wavelengths + w] = (1 - f) * sigmaScattering;
             for (int l = 0; l <= degree; ++l)
                 optics.moments[(s * (degree + 1) + l) * wavelengths + w] =
-                    sigmaScattering > 0 ? (moments[l] - f - blurred * (1 - gaussianMoment(l, degree))) / (1 - f) : 0;
+                    sigmaScattering > 0 ? (moments[l] - f) / (1 - f) - blurred * (1 - fading(l, degree)) : 0;
         }
         if (scatters)
             optics.scatterers.push_back(s);

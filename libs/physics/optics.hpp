@@ -8,8 +8,8 @@ namespace sky::physics {
 ///
 /// With f the truncated share of the phase function, extinction and scattering cross sections lose f sigma_sca and the
 /// Legendre moments become (lambda_l - f) / (1 - f). source: Wiscombe 1977, J. Atmos. Sci. 34, 1408.
-/// In thin air nothing is truncated, and the same share b of a sharp peak becomes as wide as the degree resolves: lambda_l - b (1 - k_l), k_l
-/// the moments of a Gaussian.
+/// Thin air is not scaled. Of phase functions that are sharp a share b, what the last moment has left, is blurred to what the degree resolves:
+/// lambda_l - b (1 - k_l), with a filter k that falls from one to next to nothing at the degree.
 struct Optics {
     int degree = 0;
     int species = 0;
@@ -28,7 +28,7 @@ struct Optics {
 double verticalColumn(const Medium& medium, const Species& species);
 
 /// Optics of `medium` for harmonics up to `degree`.
-///   truncate  scale, or blur, where peaks are sharp; false: the series is only cut
+///   truncate  scale and blur where peaks are sharp; false: the series is only cut
 Optics makeOptics(const Medium& medium, int degree, bool truncate);
 
 /// Largest extinction cross section of each species over wavelengths, m^2.
@@ -37,7 +37,7 @@ std::vector<double> largestExtinctions(const Optics& optics);
 /// Whether any peak is truncated.
 bool truncates(const Optics& optics);
 
-/// Whether any peak is blurred.
+/// Whether any sharp peak is blurred.
 bool blurs(const Optics& optics);
 
 /// Up to this degree tables of the radiance field are interpolated by cubics, above it straight between two neighbours: what is above is a
