@@ -18,18 +18,26 @@ constexpr int truncatedReach = 5;
 /// so each event would make light from nothing: 1.5 times what came in of g = 0.99 and an optical depth of 10, and more at each lower degree.
 constexpr double mostAtEnd = 0.1;
 
-/// A phase function is sharp whose moment of this degree is above this (g = 0.82). Where its series is cut it ripples away from its peak, where there is
-/// little light, more than that by far: light scattered twice in the shadow was four times too bright for g = 0.9, or below zero.
+/// A phase function is sharp whose moment of this degree is above this (g = 0.82). Where its series is cut it ripples away from its peak,
+/// where there is little light, more than that by far: light scattered twice in the shadow was four times too bright for g = 0.9, or below
+/// zero.
 constexpr int sharpDegree = 8;
 constexpr double sharpMoment = 0.2;
 
-/// Factor of the Legendre moment l, where a sharp series is let fade to its end. With a power of 1 it is a Gaussian, which has no ripples at all but
-/// changes low moments, and with them diffusion; 2 leaves these, and has ripples for g = 0.99. What lies between was tried on clouds, dust and
-/// generated scenes (docs/method).
+/// Factor of the Legendre moment l, where a sharp series is let fade to its end. With a power of 1 it is a Gaussian, which has no ripples at
+/// all but changes low moments, and with them diffusion; 2 leaves these, and has ripples for g = 0.99. What lies between was tried on clouds,
+/// dust and generated scenes (docs/method).
 double fading(const int l, const int degree)
 {
     constexpr double end = 0.01, power = 1.25;
     return degree > 0 ? std::pow(end, std::pow(l * (l + 1.) / (degree * (degree + 1.)), power)) : 1;
+}
+
+/// What a forward peak has left of the moments where the series is cut. One backward has a sign there that changes from each to the next:
+/// taken for one forward, it would be made sharper.
+double leftForward(const std::vector<double>& moments, const int degree)
+{
+    return degree > 0 ? std::min(moments[degree], moments[degree - 1]) : moments[degree];
 }
 
 /// The share f of a phase function that is taken as not scattered at all. Scaling with f replaces every Legendre moment above the degree
@@ -91,7 +99,7 @@ Optics makeOptics(const Medium& medium, const int degree, const bool truncate)
                     f = peakShare(moments, degree);
                 }
                 if (truncate && moments[sharpDegree] > sharpMoment)
-                    blurred = std::max(0., (moments[degree] - f) / (1 - f));
+                    blurred = std::max(0., (leftForward(moments, degree) - f) / (1 - f));
             }
             optics.truncation[s * wavelengths + w] = f;
             optics.blurred[s * wavelengths + w] = blurred;

@@ -8,8 +8,8 @@ namespace sky::physics {
 ///
 /// With f the truncated share of the phase function, extinction and scattering cross sections lose f sigma_sca and the
 /// Legendre moments become (lambda_l - f) / (1 - f). source: Wiscombe 1977, J. Atmos. Sci. 34, 1408.
-/// Thin air is not scaled. Of phase functions that are sharp a share b, what the last moment has left, is blurred to what the degree resolves:
-/// lambda_l - b (1 - k_l), with a filter k that falls from one to next to nothing at the degree.
+/// Thin air is not scaled. Of phase functions that are sharp a share b, what a forward peak has left of the last moments, is blurred to what
+/// the degree resolves: lambda_l - b (1 - k_l), with a filter k that falls from one to next to nothing at the degree.
 struct Optics {
     int degree = 0;
     int species = 0;
@@ -18,7 +18,7 @@ struct Optics {
     std::vector<double> scattering; ///< [species][wavelengths], m^2, scaled
     std::vector<double> truncation; ///< [species][wavelengths], f, 0..1
     std::vector<double> blurred;    ///< [species][wavelengths], b, 0..1
-    std::vector<double> moments;    ///< [species][0..degree][wavelengths], lambda_l, scaled
+    std::vector<double> moments;    ///< [species][0..degree][wavelengths], lambda_l, scaled and blurred
     std::vector<int> scatterers;    ///< indices of the species that scatter at some wavelength
 
     double moment(int s, int l, int w) const { return moments[(s * (degree + 1) + l) * wavelengths + w]; }

@@ -112,6 +112,16 @@ TEST_CASE("sharp peaks: gentle ones are left alone, and all if told so")
     CHECK(makeOptics(sharp, 8, false).moment(0, 8, 0) == Approx(std::pow(0.99, 8)).epsilon(1e-3));
 }
 
+TEST_CASE("sharp peaks: one backward is not taken for one forward")
+{
+    for (const double opticalDepth : {1e-4, 10.}) {
+        const auto air = layer(opticalDepth, 1, 0, [](double t) { return henyeyGreenstein(-0.9, t); });
+        const Optics optics = makeOptics(air, 14, true);
+        for (int l = 0; l <= 14; ++l)
+            CHECK(optics.moment(0, l, 0) == Approx(std::pow(-0.9, l)).epsilon(1e-3));
+    }
+}
+
 TEST_CASE("optics: absorbers extinguish and do not scatter")
 {
     const auto medium = sky::test::sampleEarth(sky::test::Aerosol::Yes);
