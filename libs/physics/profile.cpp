@@ -174,6 +174,7 @@ Profile Profile::withShellsAt(const std::vector<double>& altitudes, const double
             if (h > shells_[k] + closest && h < shells_[k + 1] - closest)
                 ends.push_back(h);
         std::sort(ends.begin(), ends.end());
+        ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
         ends.push_back(shells_[k + 1]);
         for (const double end : ends) {
             for (int s = 0; s < species_; ++s) {
@@ -204,9 +205,9 @@ void Profile::Segments::add(const double atStart, const double along, const doub
 
 void Profile::densities(const int interval, const double altitude, double* const values) const
 {
-    const size_t first = size_t(interval) * species_;
-    densitiesAlong(&segments_.start[first], &segments_.slope[first], &segments_.logarithmic[first], species_, altitude - shells_[interval],
-                   values);
+    const size_t first = size_t(interval) * species_; // without species there is no element to refer to
+    densitiesAlong(segments_.start.data() + first, segments_.slope.data() + first, segments_.logarithmic.data() + first, species_,
+                   altitude - shells_[interval], values);
 }
 
 double depthInShell(const Profile& profile, const std::vector<double>& crossSections, const int interval, const double bottom,

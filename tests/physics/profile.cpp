@@ -1,6 +1,8 @@
 #include "physics/profile.hpp"
 #include "media.hpp"
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <functional>
 
 using namespace sky::physics;
 using sky::test::withDensity;
@@ -139,6 +141,18 @@ TEST_CASE("profile: under an upper edge shells halve the way to it, as far as a 
     // A point shines along the horizontal: so thin is the skin that it lights.
     medium.sunAngularRadius = 0;
     CHECK(Profile(medium).withShellsUnderEdges().shells().size() > finer.shells().size());
+}
+
+TEST_CASE("profile: shells under two edges that fall together are one")
+{
+    // 750 m is a quarter of the way below the top, and a sixteenth below 800 m.
+    Medium medium = withDensity(sky::test::layer(1, 1, 0, sky::test::isotropicPhase), {0, 799.9999, 800, 1000}, {1, 1, 0.4, 0.4});
+    medium.species[0].extinctionCrossSection = {1e-3};
+    const Profile finer = Profile(medium).withShellsUnderEdges();
+    const auto& shells = finer.shells();
+    CHECK(shells.size() > 30);
+    CHECK(std::count(shells.begin(), shells.end(), 750.) == 1);
+    CHECK(std::adjacent_find(shells.begin(), shells.end(), std::greater_equal<>()) == shells.end());
 }
 
 TEST_CASE("profile: air that thins out has no edge, nor has a layer in other air")
