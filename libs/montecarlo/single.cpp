@@ -15,7 +15,8 @@ constexpr double costOfHalving = 6; // each takes 4 to 8 times as long as the on
 /// Steps that even ones in a segment may be at most, before they are halved.
 constexpr int mostSteps = 64;
 
-/// Power with which steps crowd at both ends of a segment, where its light is if it is too deep for even steps: the first is half a mean free path.
+/// Power with which steps crowd at both ends of a segment, where its light is if it is too deep for even steps: the first is half a mean
+/// free path.
 double crowdingAtEnds(double opticalDepth) { return std::max(1., std::log(opticalDepth) / std::log(mostSteps / 2)); }
 
 /// Place 0..1 in a segment after a share x of its steps.

@@ -11,7 +11,7 @@ namespace {
 
 /// Part of what a sweep saw that a correction leaves at least: light is not negative.
 constexpr double leastLeft = 0.1;
-/// Change by a sweep, of that by the one before, above which nothing is gained.
+/// Change by a sweep, and what it finds wrong, of that of the one before, above which nothing is gained.
 constexpr double leastGain = 0.7;
 /// Of the trust in layers that is left where they were wrong.
 constexpr double lessTrust = 0.3;

@@ -10,6 +10,7 @@ namespace sky::solver {
 class EventTail
 {
 public:
+    /// \param event  referred to, not copied
     EventTail(const Sums& event, const LayeredLight& layers, int suns);
 
     /// Forgets all but the event.
@@ -40,8 +41,8 @@ private:
     double change_ = 1, before_ = 1;
     int stalls_ = 0;
     /// [sun][wavelength]: how far layers are followed, 0..1; less where they told wrong, as in twilight, where light comes from beside.
-    /// And by how much the light of a column was wrong, rms of its part.
-    std::vector<double> trust_, wrong_;
+    std::vector<double> trust_;
+    std::vector<double> wrong_; // [sun][wavelength]: by how much its light was wrong at the last sweep, rms of its part
 };
 
 } // namespace sky::solver

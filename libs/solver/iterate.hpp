@@ -17,12 +17,13 @@ struct OrderLimit {
 
 /// The converged radiation field and what it cost.
 struct RadiationField {
-    physics::Moments total;                      ///< events 1 .. eventCount
-    std::vector<physics::Moments> perEvent;      ///< kept on request, as total
-    physics::Moments firstFromGround;            ///< likewise: the part of event 1 that is reflection by the ground
-    std::vector<std::vector<double>> irradiance; ///< [event - 1]: [altitude][sun][wavelength], downward, unit solar irradiance
-    int eventCount = 0;
-    double remainder = 0; ///< rms of the relative change by the last event, where a tolerance decided
+    physics::Moments total;                 ///< of all events, with those to come where all orders are wanted
+    std::vector<physics::Moments> perEvent; ///< those computed one by one, kept on request
+    physics::Moments firstFromGround;       ///< likewise: the part of event 1 that is reflection by the ground
+    /// [event - 1] of those computed one by one: [altitude][sun][wavelength], downward, unit solar irradiance. The last one has the rest too.
+    std::vector<std::vector<double>> irradiance;
+    int eventCount = 0;   ///< computed one by one, and sweeps over all that follow
+    double remainder = 0; ///< rms: relative change by the last event, or what the last sweep leaves, where a tolerance decided
 };
 
 /// Source iteration for the radiance moments (docs/method): each sweep gathers, for every level, Sun and direction, the light

@@ -39,8 +39,8 @@ private:
     std::vector<double> shape_; // [level][wavelength]
     bool straight_;
     int levels_, wavelengths_, degree_;
-    std::vector<std::vector<double>>
-        matrices_;                         // [wavelength]: [row][column] of one minus the operator, relative to the shape; then its L and U
+    /// [wavelength]: [row][column] of one minus the operator, relative to the shape; then its L and U.
+    std::vector<std::vector<double>> matrices_;
     std::vector<std::vector<int>> pivots_; // [wavelength][row]
 };
 
