@@ -13,7 +13,6 @@ namespace sky::solver {
 namespace {
 
 using base::pi;
-constexpr int mostEvents = 200;
 /// Events that are computed one by one where all are wanted. What then is not closed dies out slowly: light in deep air.
 constexpr int mostSingly = 16;
 /// Times that light to begin with is told anew, from its own shape.
@@ -278,7 +277,7 @@ std::optional<Sums> closed(Sweeps& sweeps, const Sums& sum, const Sums& last, do
 RadiationField iterate(const gl::Api& api, const Scene& scene, const physics::MomentGrid& grid, const physics::MomentSettings& settings,
                        const OrderLimit& limit, bool keepEvents, const std::function<void(double)>& breath, std::size_t blockBytes)
 {
-    const int wanted = limit.all ? mostEvents : limit.orders - 1;
+    const int wanted = limit.all ? limit.most : limit.orders - 1;
     const int harmonics = harmonicCount(settings.degree), wavelengths = scene.optics.wavelengths;
     RadiationField field;
     const auto fractionOf = [&](int event) { return limit.all ? 1 - std::pow(0.7, event) : double(event) / std::max(1, wanted); };
@@ -312,6 +311,7 @@ RadiationField iterate(const gl::Api& api, const Scene& scene, const physics::Mo
                 break;
         }
     }
+    field.ended = !(limit.all && tolerance > 0) || field.remainder < tolerance;
     const Sums total = withTail ? *withTail : series.total();
     for (std::size_t i = 0; i < total.irradiance.size(); ++i) // orders beyond the last count with it
         field.irradiance.back()[i] += total.irradiance[i] - series.sum().irradiance[i];

@@ -13,6 +13,7 @@ struct OrderLimit {
     int orders = 4;       ///< of the light that is to be seen: the field needs one event less
     bool all = false;     ///< go on until the last event changes the whole series, closed, by less than `tolerance`
     double tolerance = 0; ///< relative, rms; 0: exactly `orders`, or where all are wanted what the settings say
+    int most = 200;       ///< events, where all are wanted
 };
 
 /// The converged radiation field and what it cost.
@@ -24,6 +25,7 @@ struct RadiationField {
     std::vector<std::vector<double>> irradiance;
     int eventCount = 0;   ///< computed one by one, and sweeps over all that follow
     double remainder = 0; ///< rms: relative change by the last event, or what the last sweep leaves, where a tolerance decided
+    bool ended = true;    ///< false: all events were wanted, and the last that may be computed still changed the light
 };
 
 /// Source iteration for the radiance moments (docs/method): each sweep gathers, for every level, Sun and direction, the light

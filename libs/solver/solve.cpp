@@ -15,6 +15,7 @@
 #include "solver/quality.hpp"
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <sstream>
 
 namespace sky::solver {
@@ -95,6 +96,14 @@ model::Manifest describe(const atmo::Description& description, const Options& op
     return manifest;
 }
 
+std::string notEnded(const RadiationField& field)
+{
+    std::ostringstream text;
+    text << "Light scattered any number of times had not ended after " << field.eventCount << " events: the last one changed it by "
+         << std::setprecision(2) << 100 * field.remainder << " %, and much more may be missing.";
+    return text.str();
+}
+
 } // namespace
 
 void solve(const atmo::Description& description, const Options& asked, gl::HeadlessContext& context, const std::filesystem::path& outDir,
@@ -148,6 +157,10 @@ void solve(const atmo::Description& description, const Options& asked, gl::Headl
         manifest.settings["moments.events"] = std::to_string(field.eventCount);
         if (limit.all || options.tolerance)
             manifest.estimatedError["orders left out"] = field.remainder;
+        if (!field.ended) {
+            manifest.warnings.push_back(notEnded(field));
+            progress.warning(manifest.warnings.back());
+        }
         if (needs.moments)
             model::writeMoments(writer, "moments", field.total);
     }

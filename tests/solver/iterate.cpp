@@ -117,8 +117,10 @@ TEST_CASE("iteration: all orders are more than four and no more than the remaind
     const auto quiet = [](double) {};
     const auto all = solver::iterate(context->api(), world.scene(), world.grid, world.settings, {0, true, 1e-3}, false, quiet);
     CHECK(all.eventCount > 4);
+    CHECK(all.ended);
     CHECK(all.remainder < 1e-3);
     CHECK(all.perEvent.empty());
+    CHECK_FALSE(solver::iterate(context->api(), world.scene(), world.grid, world.settings, {0, true, 1e-9, 3}, false, quiet).ended);
     const auto many =
         solver::iterate(context->api(), world.scene(), world.grid, world.settings, {all.eventCount + 6, false, 0}, false, quiet);
     // The series was closed: what five more events add differs from the estimate by less than the remainder.
