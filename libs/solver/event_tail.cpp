@@ -94,6 +94,8 @@ void EventTail::add(const Sums& fresh, const LayeredLight& layers, const double 
                     values[a * terms + l] = lit(a) ? fresh.moments[at(a, l)] : 0;
             values.back() = lit(0) ? fresh.irradiance[point(0) * wavelengths_ + w] : 0;
             layers.addFollowing(w, values.data());
+            if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
+                continue; // a matrix that is all but singular tells nothing
             const double trust = trust_[std::size_t(sun) * wavelengths_ + w];
             for (int a = 0; a < levels; ++a) {
                 if (!lit(a))
