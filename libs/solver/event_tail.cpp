@@ -51,7 +51,7 @@ void EventTail::improve(const Sums& next, const Sums& earlier, const LayeredLigh
     add(missing, layers, least);
     before_ = change_;
     change_ = relativeChange(means(), then);
-    stalls_ += change_ > leastGain * before_;
+    stalls_ += !(change_ <= leastGain * before_); // no number is no gain
 }
 
 void EventTail::judge(const Sums& missing, const double least)

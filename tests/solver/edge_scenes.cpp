@@ -112,6 +112,32 @@ TEST_CASE("edge scene: all orders end by themselves, over white ground too, and 
     CHECK(brightness[1] > 1.2 * brightness[0]);
 }
 
+TEST_CASE("edge scene: all orders of a cloud without end are found as far as they are, and a warning says so", "[gl]")
+{
+    auto context = gl::testing::context();
+    if (!context)
+        return;
+    SceneText scene;
+    scene.orders = "all";
+    scene.albedo = "0";
+    scene.radius = "256e6 m";
+    scene.top = "1e6 m";
+    // A cloud of optical depth 1000 that absorbs nothing, and no air under it.
+    scene.species = SceneText::scatterer("drops", "max(0.0, 1.0 - sqr(altitude/34e3 - 10.0))", "vec4(1.0/(4.0*PI))", "achromatic",
+                                         "0.022 m^2", "single scattering albedo: 1, 1");
+    Options options = draft();
+    options.parts = {Part::Moments};
+    const Run deep(*context, scene.parse(), options);
+    checkValues(deep.model);
+    REQUIRE(deep.listener.warnings.size() == 1);
+    CHECK_THAT(deep.listener.warnings[0], Catch::StartsWith("Light scattered any number of times had not ended after "));
+    CHECK(deep.model.manifest().warnings == deep.listener.warnings);
+    CHECK(deep.model.manifest().estimatedError.at("orders left out") > 0.005);
+    scene.species = SceneText::rayleigh();
+    const Run shallow(*context, scene.parse(), options);
+    CHECK(shallow.listener.warnings.empty());
+}
+
 TEST_CASE("edge scene: planets and atmospheres of every size", "[gl]")
 {
     auto context = gl::testing::context();
