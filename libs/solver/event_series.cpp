@@ -9,6 +9,8 @@ namespace {
 
 /// Events from which the rest is told: each that is kept takes the memory of a whole field.
 constexpr std::size_t mostKept = 8;
+/// Changes of which the least counts where it is told how they fall: a series closed by few events changes by leaps.
+constexpr std::size_t changesTogether = 4;
 
 void addTo(std::vector<double>& sum, const std::vector<double>& values, double factor)
 {
@@ -39,6 +41,12 @@ double relativeChange(const std::vector<double>& now, const std::vector<double>&
     return lit > 0 ? std::sqrt(squares / double(lit)) : 0;
 }
 
+double remainderAfter(const double change, const double ratio)
+{
+    const double falling = std::min(ratio, 0.99);
+    return change * std::max(1., falling / (1 - falling));
+}
+
 void EventSeries::add(const Sums& event)
 {
     addTo(sum_, event, 1);
@@ -60,8 +68,20 @@ void EventSeries::add(const Sums& event)
             for (std::size_t k = 0; k < n; ++k)
                 means_.back() += weights[k] * double(kept_[k].moments[at]);
         }
-    if (!then.empty())
-        change_ = relativeChange(means_, then);
+    if (then.empty())
+        return;
+    if (changes_.size() == 2 * changesTogether)
+        changes_.erase(changes_.begin());
+    changes_.push_back(relativeChange(means_, then));
+}
+
+double EventSeries::remainder() const
+{
+    if (changes_.size() < 2 * changesTogether)
+        return remainderAfter(change(), 1);
+    const auto middle = changes_.begin() + changesTogether;
+    const double before = *std::min_element(changes_.begin(), middle), last = *std::min_element(middle, changes_.end());
+    return remainderAfter(change(), std::pow(last / std::max(before, 1e-300), 1. / changesTogether));
 }
 
 Sums EventSeries::total() const

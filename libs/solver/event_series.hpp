@@ -19,6 +19,9 @@ void addTo(Sums& sum, const Sums& other, double factor);
 /// Relative difference between two answers for the light of some places, rms over those that are lit at all.
 double relativeChange(const std::vector<double>& now, const std::vector<double>& then);
 
+/// What is left of light that changed last by `change`, where each change is `ratio` times the one before: at least the last one again.
+double remainderAfter(double change, double ratio);
+
 /// The light of all events from that of the first ones. Each event follows from the last by the same operator, so where the
 /// series shall be whole, physics::seriesFactors close it, with one set of factors a wavelength, chosen by the relative difference of
 /// I_00 over all levels and Suns that are lit at all.
@@ -33,7 +36,9 @@ public:
     const Sums& sum() const { return sum_; }
     /// Relative difference that the last event made to what `total` will answer, rms over the same places. Taken as a bound
     /// of what is left, which holds as long as changes fall by half or more from event to event.
-    double change() const { return change_; }
+    double change() const { return changes_.empty() ? 1 : changes_.back(); }
+    /// What is left where changes fall more slowly: as much as follows if they go on falling as they did over the last events.
+    double remainder() const;
     Sums total() const;
 
 private:
@@ -50,9 +55,9 @@ private:
     int harmonics_, wavelengths_;
     bool whole_;
     Sums sum_;
-    std::vector<Kept> kept_;    // the last events
-    std::vector<double> means_; // [altitude][sun][wavelength], I_00 of the last answer
-    double change_ = 1;
+    std::vector<Kept> kept_;      // the last events
+    std::vector<double> means_;   // [altitude][sun][wavelength], I_00 of the last answer
+    std::vector<double> changes_; // by the last events
 };
 
 } // namespace sky::solver

@@ -116,10 +116,6 @@ void EventTail::add(const Sums& fresh, const LayeredLight& layers, const double 
     });
 }
 
-double EventTail::remainder() const
-{
-    const double ratio = std::min(change_ / std::max(before_, 1e-300), 0.99);
-    return change_ * std::max(1., ratio / (1 - ratio));
-}
+double EventTail::remainder() const { return remainderAfter(change_, change_ / std::max(before_, 1e-300)); }
 
 } // namespace sky::solver

@@ -246,30 +246,33 @@ private:
     std::optional<ScatteredGather> gather_;
 };
 
-/// All light, where each event is so little weaker than the last that those to come are told from sweeps over all of them; nothing where
-/// that does not succeed.
-///   sum    of the events so far, with the last
-///   field  takes the number of sweeps, and what is left
-std::optional<Sums> closed(Sweeps& sweeps, const Sums& sum, const Sums& last, double tolerance, RadiationField& field, const Breath& breath)
+/// Light whose late events are told at once.
+struct Closed {
+    Sums earlier;     ///< events before the last that was computed by itself
+    Sums rest;        ///< that one and all that follow
+    double remainder; ///< what is left, as EventTail says
+};
+
+/// Where each event is so little weaker than the last that those to come are told from sweeps over all of them: as many as it takes, or as
+/// are of use.
+///   sum     of the events so far, with the last
+///   count   of sweeps; goes on
+Closed close(Sweeps& sweeps, const Sums& sum, const Sums& last, double tolerance, int& count, const Breath& breath)
 {
-    Sums earlier = sum;
-    addTo(earlier, last, -1);
+    Closed result{sum, {}, 1};
+    addTo(result.earlier, last, -1);
     EventTail tail(last, sweeps.layers(nullptr, true), sweeps.suns());
     for (int i = 0; i < reshapings; ++i)
         tail.begin(sweeps.layers(&tail.light(), true));
-    const int singly = field.eventCount;
+    const int next = count + 1;
     do {
-        const Sums next = sweeps.scattered(sweeps.toMoments(tail.light()), singly + 1, breath);
-        tail.improve(next, earlier, sweeps.layers(&tail.light(), false));
-        ++field.eventCount;
-        field.remainder = tail.remainder();
-        if (tail.stalls()) {
-            field.eventCount = singly;
-            return std::nullopt;
-        }
-    } while (!(field.remainder < tolerance));
-    addTo(earlier, tail.light(), 1);
-    return earlier;
+        const Sums swept = sweeps.scattered(sweeps.toMoments(tail.light()), next, breath);
+        tail.improve(swept, result.earlier, sweeps.layers(&tail.light(), false));
+        ++count;
+        result.remainder = tail.remainder();
+    } while (!(result.remainder < tolerance) && !tail.stalls());
+    result.rest = tail.light();
+    return result;
 }
 
 } // namespace
@@ -287,32 +290,37 @@ RadiationField iterate(const gl::Api& api, const Scene& scene, const physics::Mo
         field.firstFromGround = sweeps.toMoments(sweeps.direct(Sweeps::First::groundOnly, [&] { breath(0); }));
     EventSeries series(harmonics, wavelengths, limit.all);
     Sums last = sweeps.direct(Sweeps::First::all, [&] { breath(0); });
-    const auto keep = [&](int event) {
+    const auto keep = [&] {
         series.add(last);
-        field.eventCount = event;
+        ++field.eventCount;
         field.irradiance.push_back(last.irradiance);
         if (keepEvents)
             field.perEvent.push_back(sweeps.toMoments(last));
     };
-    keep(1);
-    std::optional<Sums> withTail;
+    keep();
+    std::optional<Closed> late;
     const double tolerance = limit.tolerance > 0 ? limit.tolerance : limit.all ? settings.tolerance : 0;
     for (int event = 2; event <= wanted; ++event) {
-        last = sweeps.scattered(sweeps.toMoments(last), event, [&] { breath(fractionOf(event - 1)); });
-        keep(event);
+        last = sweeps.scattered(sweeps.toMoments(last), event, [&] { breath(fractionOf(field.eventCount)); });
+        keep();
         if (!(tolerance > 0))
             continue;
-        field.remainder = series.change();
+        field.remainder = late ? series.remainder() : series.change();
         if (field.remainder < tolerance)
             break;
         if (limit.all && event == mostSingly) {
-            withTail = closed(sweeps, series.sum(), last, tolerance, field, [&] { breath(fractionOf(field.eventCount)); });
-            if (withTail)
+            late = close(sweeps, series.sum(), last, tolerance, field.eventCount, [&] { breath(fractionOf(field.eventCount)); });
+            if (late->remainder < tolerance)
                 break;
         }
     }
+    Sums total = series.total();
+    if (late && late->remainder < field.remainder) { // nearer than what came one by one after it
+        field.remainder = late->remainder;
+        total = std::move(late->earlier);
+        addTo(total, late->rest, 1);
+    }
     field.ended = !(limit.all && tolerance > 0) || field.remainder < tolerance;
-    const Sums total = withTail ? *withTail : series.total();
     for (std::size_t i = 0; i < total.irradiance.size(); ++i) // orders beyond the last count with it
         field.irradiance.back()[i] += total.irradiance[i] - series.sum().irradiance[i];
     field.total = sweeps.toMoments(total);

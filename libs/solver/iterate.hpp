@@ -24,8 +24,8 @@ struct RadiationField {
     /// [event - 1] of those computed one by one: [altitude][sun][wavelength], downward, unit solar irradiance. The last one has the rest too.
     std::vector<std::vector<double>> irradiance;
     int eventCount = 0;   ///< computed one by one, and sweeps over all that follow
-    double remainder = 0; ///< rms: relative change by the last event, or what the last sweep leaves, where a tolerance decided
-    bool ended = true;    ///< false: all events were wanted, and the last that may be computed still changed the light
+    double remainder = 0; ///< rms: relative change by the last event, or what late ones leave, where a tolerance decided
+    bool ended = true;    ///< false: all events were wanted, and after the last that may be computed more is left than the tolerance
 };
 
 /// Source iteration for the radiance moments (docs/method): each sweep gathers, for every level, Sun and direction, the light

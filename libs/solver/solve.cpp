@@ -99,8 +99,8 @@ model::Manifest describe(const atmo::Description& description, const Options& op
 std::string notEnded(const RadiationField& field)
 {
     std::ostringstream text;
-    text << "Light scattered any number of times had not ended after " << field.eventCount << " events: the last one changed it by "
-         << std::setprecision(2) << 100 * field.remainder << " %, and much more may be missing.";
+    text << "Light scattered any number of times had not ended after " << field.eventCount << " events: as the last ones changed it, "
+         << std::setprecision(2) << 100 * field.remainder << " % may be missing.";
     return text.str();
 }
 
