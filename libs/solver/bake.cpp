@@ -97,6 +97,11 @@ std::vector<std::array<double, 4>> luminanceOf(const physics::Medium& medium)
     return weights;
 }
 
+std::string BakeJob::orderName(const std::size_t order, const bool last) const
+{
+    return "order " + std::to_string(order) + (last && description.allScatteringOrders ? " and all that follow" : "");
+}
+
 model::TableSpec BakeJob::spec(const std::string& name, const std::string& quantity, bool luminance) const
 {
     model::TableSpec result;
@@ -214,10 +219,10 @@ void bakeSingleScattering(const gl::Api& api, const BakeJob& job, model::ModelWr
 }
 
 void bakeMultipleScattering(const gl::Api& api, const BakeJob& job, const physics::Moments& field, const std::string& name,
-                            model::ModelWriter& writer, const std::function<void(double)>& breath)
+                            const std::string& quantity, model::ModelWriter& writer, const std::function<void(double)>& breath)
 {
     const bool luminance = !job.options.radiance;
-    auto table = writer.table(job.spec(name, "multiple scattering", luminance));
+    auto table = writer.table(job.spec(name, quantity, luminance));
     const std::size_t texels = std::size_t(job.size.viewZenithAngle) * job.size.sunZenithAngle * job.size.dotViewSun;
     base::Background writing;
     gatherMultipleScattering(api, job, field, luminance, breath, [&](int layer, std::vector<float> values) {
@@ -351,7 +356,8 @@ void bakeIrradiance(const BakeJob& job, const RadiationField* field, bool perEve
             sum[i] += field->irradiance[event][i];
         if (perEvent)
             write(field->irradiance[event], "irradiance-order-" + std::to_string(event + 1),
-                  "downward irradiance of a horizontal surface by light of order " + std::to_string(event + 1));
+                  "downward irradiance of a horizontal surface by light of " +
+                      job.orderName(event + 1, event + 1 == field->irradiance.size()));
     }
     write(sum, "irradiance-diffuse", "downward irradiance of a horizontal surface by the sky");
 }

@@ -27,6 +27,8 @@ struct BakeJob {
     double vDark;                          ///< dark end of the axis of the Sun: physics::sunElevationNodes
     atmo::SizeScattering size;             ///< texels
     std::vector<double> altitudes() const; ///< of the layers asked for
+    /// "order 3": in words; the last of all orders with those that follow it.
+    std::string orderName(std::size_t order, bool last) const;
     /// A 4D table of that size: luminance, or spectral radiance after --radiance.
     model::TableSpec spec(const std::string& name, const std::string& quantity, bool luminance) const;
 };
@@ -39,7 +41,7 @@ void bakeSingleScattering(const gl::Api& api, const BakeJob& job, model::ModelWr
 
 /// Light of the field's events scattered once more: the table `name`.
 void bakeMultipleScattering(const gl::Api& api, const BakeJob& job, const physics::Moments& field, const std::string& name,
-                            model::ModelWriter& writer, const std::function<void(double)>& breath);
+                            const std::string& quantity, model::ModelWriter& writer, const std::function<void(double)>& breath);
 
 /// The layers of such a table, one after another, without writing them.
 ///   use  gets the layer and its texels [sun][view][azimuth]: luminance (X, Y, Z, scotopic), or radiance per unit solar irradiance at each

@@ -7,13 +7,14 @@ namespace sky::solver {
 namespace {
 
 /// j_lm = sum over species of beta_sca lambda_l I_lm at the levels of the grid: the emission coefficient in harmonics (docs/method).
-void writeScatteringDensity(const BakeJob& job, const physics::Moments& field, const std::string& name, model::ModelWriter& writer)
+void writeScatteringDensity(const BakeJob& job, const physics::Moments& field, const std::string& name, const std::string& makes,
+                            model::ModelWriter& writer)
 {
     const auto& optics = job.scene.optics;
     const int harmonics = physics::harmonicCount(field.degree), wavelengths = field.wavelengths;
     model::TableSpec spec;
     spec.name = name;
-    spec.quantity = "moments of the emission coefficient";
+    spec.quantity = "moments of the emission coefficient that makes " + makes;
     spec.unit = "W m^-3 nm^-1";
     spec.isSigned = true;
     model::Axis suns{"sunElevation", "rad", {}, {"sinh", {{"scale", field.grid.sunScale()}}}};
@@ -73,19 +74,19 @@ void writeDebugTables(const gl::Api& api, const BakeJob& job, const RadiationFie
     const auto& options = job.options;
     const std::size_t events = field.perEvent.size();
     if (options.saveScatteringDensity2FromGround)
-        writeScatteringDensity(job, field.firstFromGround, "scattering-density/order-2-from-ground", writer);
+        writeScatteringDensity(job, field.firstFromGround, "scattering-density/order-2-from-ground", "order 2, from the ground", writer);
     physics::Moments accumulated;
     for (std::size_t e = 0; e < events; ++e) {
-        const std::string order = "order-" + std::to_string(e + 2);
+        const std::string order = "order-" + std::to_string(e + 2), named = job.orderName(e + 2, e + 1 == events);
         breath(double(e) / double(events));
         if (options.saveScatteringDensity)
-            writeScatteringDensity(job, field.perEvent[e], "scattering-density/" + order, writer);
+            writeScatteringDensity(job, field.perEvent[e], "scattering-density/" + order, named, writer);
         if (options.saveDeltaScattering)
-            bakeMultipleScattering(api, job, field.perEvent[e], "delta-scattering/" + order, writer,
+            bakeMultipleScattering(api, job, field.perEvent[e], "delta-scattering/" + order, "scattering of " + named, writer,
                                    [&](double) { breath(double(e) / double(events)); });
         if (options.saveAccumulatedScattering) {
             accumulated = e == 0 ? field.perEvent[0] : sum(accumulated, field.perEvent[e]);
-            bakeMultipleScattering(api, job, accumulated, "accumulated-scattering/" + order, writer,
+            bakeMultipleScattering(api, job, accumulated, "accumulated-scattering/" + order, "multiple scattering up to " + named, writer,
                                    [&](double) { breath(double(e) / double(events)); });
         }
     }

@@ -314,15 +314,25 @@ RadiationField iterate(const gl::Api& api, const Scene& scene, const physics::Mo
                 break;
         }
     }
-    Sums total = series.total();
-    if (late && late->remainder < field.remainder) { // nearer than what came one by one after it
+    Sums total, rest; // the latter: of the last event and all that follow
+    if (late && late->remainder < field.remainder) {
+        // Nearer than what came one by one after it.
         field.remainder = late->remainder;
+        rest = std::move(late->rest);
         total = std::move(late->earlier);
-        addTo(total, late->rest, 1);
+        addTo(total, rest, 1);
+        field.irradiance.resize(mostSingly);
+        if (keepEvents)
+            field.perEvent.resize(mostSingly);
+    } else {
+        total = rest = series.total();
+        addTo(rest, series.sum(), -1);
+        addTo(rest, last, 1);
     }
     field.ended = !(limit.all && tolerance > 0) || field.remainder < tolerance;
-    for (std::size_t i = 0; i < total.irradiance.size(); ++i) // orders beyond the last count with it
-        field.irradiance.back()[i] += total.irradiance[i] - series.sum().irradiance[i];
+    field.irradiance.back() = rest.irradiance;
+    if (keepEvents)
+        field.perEvent.back() = sweeps.toMoments(rest);
     field.total = sweeps.toMoments(total);
     breath(1);
     return field;

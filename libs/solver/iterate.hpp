@@ -19,9 +19,9 @@ struct OrderLimit {
 /// The converged radiation field and what it cost.
 struct RadiationField {
     physics::Moments total;                 ///< of all events, with those to come where all orders are wanted
-    std::vector<physics::Moments> perEvent; ///< those computed one by one, kept on request
+    std::vector<physics::Moments> perEvent; ///< kept on request: those computed one by one, the last one with all that follow
     physics::Moments firstFromGround;       ///< likewise: the part of event 1 that is reflection by the ground
-    /// [event - 1] of those computed one by one: [altitude][sun][wavelength], downward, unit solar irradiance. The last one has the rest too.
+    /// [event - 1] likewise: [altitude][sun][wavelength], downward, unit solar irradiance.
     std::vector<std::vector<double>> irradiance;
     int eventCount = 0;   ///< computed one by one, and sweeps over all that follow
     double remainder = 0; ///< rms: relative change by the last event, or what late ones leave, where a tolerance decided

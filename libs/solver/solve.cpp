@@ -180,7 +180,7 @@ void solve(const atmo::Description& description, const Options& asked, gl::Headl
     }
     if (needs.multiple) {
         breath = stages.begin("multiple scattering", stages.work().multiple);
-        bakeMultipleScattering(api, job, field.total, "multiple-scattering", writer, breath);
+        bakeMultipleScattering(api, job, field.total, "multiple-scattering", "multiple scattering", writer, breath);
     }
     if (needs.eclipsed) {
         breath = stages.begin("eclipses", stages.work().eclipsed);

@@ -184,6 +184,58 @@ TEST_CASE("options: intermediate tables are saved on request, and orders add up"
         CHECK(ground[i] <= all[i] * 1.0001F);
 }
 
+TEST_CASE("options: with all orders the last of the intermediate tables has all that follow, and says so", "[gl]")
+{
+    auto context = gl::testing::context();
+    if (!context)
+        return;
+    Options options = only({Part::Multiple, Part::Irradiance});
+    options.texturePrecisionBits = 24;
+    options.radiance = true;
+    options.saveIrradianceOrders = options.saveDeltaScattering = options.saveAccumulatedScattering = true;
+    SceneText scene;
+    scene.orders = "all";
+    scene.suns = "8";
+    // Optical depths of 0.12, whose series is closed, and 40, whose late events are told at once.
+    for (const std::string density : {"1.5e24", "5e26"}) {
+        scene.species = SceneText::rayleigh(density + "*exp(-altitude/(8.0*km))");
+        const Run run(*context, scene.parse(), options);
+        checkValues(run.model);
+        std::map<std::string, int> orders; // tables by the kind
+        for (const auto& table : run.model.tables())
+            if (const auto at = table.name.find("order-"); at != std::string::npos) {
+                int& most = orders[table.name.substr(0, at)];
+                most = std::max(most, std::stoi(table.name.substr(at + 6)));
+            }
+        REQUIRE(orders.size() == 3);
+        for (const auto& [kind, most] : orders)
+            for (const int order : {most - 1, most}) {
+                const bool says =
+                    run.model.table(kind + "order-" + std::to_string(order)).quantity.find(" and all that follow") != std::string::npos;
+                CHECK(says == (order == most));
+            }
+        const auto read = [&](const std::string& name) { return run.model.readAll(name); };
+        const auto sumsTo = [&](const std::string& kind, int first, const std::string& total, double difference) {
+            auto all = read(total), sum = std::vector<float>(all.size(), 0.F);
+            for (int order = first; order <= orders.at(kind); ++order) {
+                const auto one = read(kind + "order-" + std::to_string(order));
+                std::transform(one.begin(), one.end(), sum.begin(), sum.begin(), std::plus<float>());
+            }
+            const double largest = double(*std::max_element(all.begin(), all.end()));
+            for (std::size_t i = 0; i < all.size(); ++i)
+                CHECK(double(sum[i]) == Approx(double(all[i])).epsilon(difference).margin(1e-5 * largest));
+        };
+        // Logarithms of a sum are interpolated, not sums of logarithms.
+        sumsTo("irradiance-", 1, "irradiance-diffuse", 0.02);
+        sumsTo("delta-scattering/", 2, "multiple-scattering", 0.02);
+        const auto all = read("multiple-scattering"),
+                   sum = read("accumulated-scattering/order-" + std::to_string(orders.at("accumulated-scattering/")));
+        const double largest = double(*std::max_element(all.begin(), all.end()));
+        for (std::size_t i = 0; i < all.size(); ++i)
+            CHECK(double(sum[i]) == Approx(double(all[i])).epsilon(1e-3).margin(1e-6 * largest));
+    }
+}
+
 TEST_CASE("options: a run that is stopped leaves nothing, or the old model", "[gl]")
 {
     auto context = gl::testing::context();
