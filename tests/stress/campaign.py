@@ -1,14 +1,15 @@
 #!/usr/bin/env python3
 """Generated stress campaign: random legal descriptions over the whole range of the language (scenes.py), judged by laws (judge.py).
 
-    tests/stress/campaign.py BIN [--count N] [--only N,N...] [--seed S] [--verify SECONDS] [--keep DIR]
+    tests/stress/campaign.py BIN [--count N] [--only N,N...] [--seed S] [--verify SECONDS] [--must-judge] [--keep DIR]
 
 BIN is the directory of the programs. Each scene is computed and asked for its sky at the special places: camera on the ground, at the top of the
 atmosphere and above; Sun and view at zenith, nadir, horizon, and equal. A scene fails where a program ends with anything but 0 (or 2 with a
 sentence: the parser refused it); where a radiance is NaN, infinite or negative, from the moments or from the textures; where it jumps between two
 places however near they are; or where more light leaves than came. With --verify each model is also compared with the Monte Carlo reference:
 it fails where its error is above BOUNDS by more than two standard errors of the judge. Light of which the judge could tell fewer than eight
-samples to 5 % is counted as not judged; scenes with sharp peaks are judged with all orders. Prints one line a scene; what it needs to be repeated is its number and --seed. Exit code 1 if any failed. Needs NumPy.
+samples to 5 % is counted as not judged; scenes with sharp peaks are judged with all orders. Prints one line a scene; what it needs to be repeated is its number and --seed. Exit code 1 if any failed, or with
+--must-judge if any was refused or not judged: by its laws, and with --verify its bright light by the reference. Needs NumPy.
 """
 import argparse
 import json
@@ -137,7 +138,7 @@ def summary(verdicts):
 
 def campaign(options):
     os.environ.setdefault("SHOWMYSKY_LIBRARY", os.path.join(options.bin, "../lib/libShowMySky.so"))
-    failed = refused = late = 0
+    failed = refused = late = unjudged = 0
     verdicts, differences = [], []
     numbers = options.only or range(options.first, options.first + options.count)
     for number in numbers:
@@ -154,7 +155,7 @@ def campaign(options):
             command = [os.path.join(options.bin, "calcmysky"), atmo, "--out-dir", model, "--radiance", "--quality", options.quality, "-q"]
             code, said = run(command + (["--only", "moments"] if options.moments else [] if facts["eclipsed"] else ["--skip", "eclipsed"]), options.seconds)
             took = processor_time() - before
-            complaints, verdict = [], "ok"
+            complaints, verdict, judged = [], "ok", False
             if code == TOO_LONG and options.moments:
                 late += 1
                 verdict = f"not judged: it takes more than {options.seconds:g} s"
@@ -164,19 +165,22 @@ def campaign(options):
             elif code != 0:
                 complaints.append(f"exit code {code}: {said[-300:]}")
             elif facts["about"].endswith("vacuum"):
-                verdict = "ok: a vacuum has no sky to ask for"
+                verdict, judged = "ok: a vacuum has no sky to ask for", True
             else:
                 complaints, difference, several = judge(options, model, facts, scratch)
                 if difference is not None:
                     differences.append(difference)
+                    judged = options.verify <= 0
                 elif not complaints:
                     late += 1
                     verdict = f"not judged: the questions take more than {options.seconds + JUDGING:g} s"
                 if options.verify > 0 and several:
                     wrong, found = verify(options, model, facts, scratch)
                     complaints += wrong
+                    judged = difference is not None and any(name == "bright" and rms is not None for (_, name), rms, _ in found)
                     verdicts += [(number, *what) for what in found]
             failed += bool(complaints)
+            unjudged += not judged
             print(f"{number:4d} {took:6.1f} s  {'FAILED  ' if complaints else ''}{'; '.join(complaints[:3]) or verdict}  [{facts['about']}]", flush=True)
     print(f"{len(numbers)} scenes, {refused} refused by the parser, {late} too long to judge, {failed} failed (seed {options.seed})")
     for name, _ in LIGHT:
@@ -185,6 +189,9 @@ def campaign(options):
             print(f"  fast against precise answers, {name} light: {100 * errors[-1]:.2g} % at most, {100 * errors[len(errors) // 2]:.2g} % median")
     if verdicts:
         summary(verdicts)
+    if options.must_judge and unjudged:
+        print(f"  {unjudged} scenes that had to be judged were not")
+        return 1
     return 1 if failed else 0
 
 
@@ -201,5 +208,6 @@ if __name__ == "__main__":
     parser.add_argument("--faint-precision", type=float, default=0.1, help="the same of faint light")
     parser.add_argument("--moments", action="store_true", help="judge the moments alone, and leave out scenes that take longer than --seconds")
     parser.add_argument("--verify", type=float, default=0, help="seconds of Monte Carlo for each scene")
+    parser.add_argument("--must-judge", action="store_true", help="fail where a scene is refused, takes too long, or leaves the reference too uncertain")
     parser.add_argument("--keep", help="keep descriptions and models here")
     sys.exit(campaign(parser.parse_args()))
