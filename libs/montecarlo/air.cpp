@@ -9,6 +9,7 @@ namespace {
 constexpr double finest = 1e-6; // sine of an elevation
 constexpr int strips = 7;       // of the Sun's disc
 constexpr std::size_t altitudeBins = 4096;
+constexpr int samplesPerShell = 8;
 
 } // namespace
 
@@ -60,6 +61,17 @@ Air::Air(const physics::Medium& medium, int wavelength)
         const double altitude = medium.topOfAtmosphere * static_cast<double>(bin) / altitudeBins;
         const auto after = std::upper_bound(altitudes_.begin() + 1, altitudes_.end() - 1, altitude);
         guideToInterval_.push_back(static_cast<std::size_t>(after - altitudes_.begin()) - 1);
+    }
+    for (int shell = 0; shell < profile_.shellCount(); ++shell) {
+        const auto [low, high] = profile_.altitudesOf(shell);
+        double bright = 0, extinction = 0;
+        Local local;
+        for (int i = 0; i < samplesPerShell; ++i) {
+            at(low + (high - low) * (i + 0.5) / samplesPerShell, local);
+            bright += local.bright;
+            extinction += local.extinction;
+        }
+        scatteredShare_.push_back(extinction > 0 ? bright / extinction : 0);
     }
 }
 

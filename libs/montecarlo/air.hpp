@@ -49,6 +49,9 @@ public:
     double groundAlbedo() const { return groundAlbedo_; }
     double sunAngularRadius() const { return sunAngularRadius_; }
 
+    /// Part of the extinction in a shell that is scattering, with the integrals of phase functions in it. It guides where events are sampled.
+    double scatteredShare(int shell) const { return scatteredShare_[static_cast<std::size_t>(shell)]; }
+
     /// Fills `local` for an altitude, straight from the tables.
     void at(double altitude, Local& local) const;
     /// Emission coefficient per unit irradiance from one direction: sum of scattering times phase function, 1/(m sr).
@@ -71,6 +74,7 @@ private:
     std::vector<std::size_t> guideToInterval_;
     std::vector<Kind> kinds_;
     std::vector<PhaseTable> phases_; // of the kinds that scatter, in their order
+    std::vector<double> scatteredShare_;
 };
 
 } // namespace sky::montecarlo

@@ -86,7 +86,8 @@ void PathTracer::prepare(const Place& place, Vec direction, const Ray& ray, cons
     };
     for (const Segment& segment : leg.segments) {
         const double middle = 0.5 * (segment.begin + segment.end);
-        add(-transmittance * std::expm1(-segment.opticalDepth), lightAt(segment.shell, middle, 1));
+        // Only scattering is an event. Were absorption one, paths would end in smoke and never know of light in thin air beside it.
+        add(-transmittance * std::expm1(-segment.opticalDepth) * air_.scatteredShare(segment.shell), lightAt(segment.shell, middle, 1));
         transmittance *= std::exp(-segment.opticalDepth);
     }
     if (leg.hitsGround && groundAlbedo > 0) {
@@ -103,7 +104,8 @@ void PathTracer::prepare(const Place& place, Vec direction, const Ray& ray, cons
         const double density = (1 - follow) / plain + (follow > 0 ? follow * choice.weight[i] / guided : 0);
         sum += choice.cumulative[i] * density;
         choice.cumulative[i] = sum;
-        choice.weight[i] = 1 / density;
+        const double share = i < leg.segments.size() ? air_.scatteredShare(leg.segments[i].shell) : 1;
+        choice.weight[i] = share > 0 ? 1 / (density * share) : 0;
     }
 }
 
@@ -229,7 +231,6 @@ double PathTracer::path(Random& random, const Decisions& decisions)
         if (order == orders_.last)
             return radiance;
 
-        const double scattered = onGround ? 1 : local_.bright / local_.extinction; // the ground's albedo is in the weight already
         const double u1 = order == 1 ? decisions[1] : random.uniform();
         const double u2 = order == 1 ? decisions[2] : random.uniform();
         if (onGround) // Lambert's law: the sine squared is uniform
@@ -247,7 +248,7 @@ double PathTracer::path(Random& random, const Decisions& decisions)
         onGround = advance(place, direction, ray, leg_, choice_, order == 1 ? decisions[3] : random.uniform(), weight);
 
         // Russian roulette once events are being counted, by what would be left of a path that follows no guide.
-        left *= scattered * choice_.plain;
+        left *= choice_.plain;
         if (order < orders_.first)
             reference = left;
         else if (const double least = rouletteThreshold * reference; left < least) {

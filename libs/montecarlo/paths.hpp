@@ -41,7 +41,7 @@ private:
     struct Choice {
         std::vector<double> cumulative; // of the probability
         std::vector<double> weight;     // what an event there stands for
-        double plain = 0;               // chance that a path meets anything
+        double plain = 0;               // chance that a path is scattered or reflected
         bool possible = false;
     };
     /// Which light the event at the end of a leg may pass on: it goes where there is some.

@@ -41,6 +41,15 @@ int partsOf(const Medium& medium, std::size_t interval)
     return std::clamp(static_cast<int>(std::ceil(2 * folds)), 1, 400);
 }
 
+/// Whether a species begins or ends at a node of the tables.
+bool edgeAt(const Medium& medium, std::size_t node)
+{
+    return std::any_of(medium.species.begin(), medium.species.end(), [&](const Species& species) {
+        const auto& n = species.numberDensity;
+        return (n[node] == 0 && (n[node - 1] > 0 || n[node + 1] > 0));
+    });
+}
+
 /// Legendre polynomials P_0 .. P_5 at y.
 std::array<double, 6> legendre(double y)
 {
@@ -68,7 +77,10 @@ Profile::Profile(const Medium& medium, int wavelength) : planetRadius_(medium.pl
     const Rule gauss = gaussLegendre(samplesPerInterval);
     std::vector<double> stations{0};
     std::vector<Sample> samples;
+    std::vector<std::size_t> edges;
     for (std::size_t i = 0; i + 1 < medium.altitudes.size(); ++i) {
+        if (i > 0 && edgeAt(medium, i))
+            edges.push_back(stations.size() - 1);
         const double low = medium.altitudes[i], high = medium.altitudes[i + 1];
         const int parts = partsOf(medium, i);
         for (int part = 0; part < parts; ++part) {
@@ -85,14 +97,16 @@ Profile::Profile(const Medium& medium, int wavelength) : planetRadius_(medium.pl
     }
     // Tables with many intervals of their own small kinks cannot be merged at the finest tolerance. The fits keep
     // the integrals, so a wider one only smooths those kinks.
+    edges.push_back(stations.size() - 1);
     for (double tolerance = 2e-6; tolerance < 2e-4; tolerance *= 3) {
-        fit(stations, samples, tolerance);
+        fit(stations, samples, edges, tolerance);
         if (shellCount() <= enoughShells)
             return;
     }
 }
 
-void Profile::fit(const std::vector<double>& stations, const std::vector<Sample>& samples, double tolerance)
+void Profile::fit(const std::vector<double>& stations, const std::vector<Sample>& samples, const std::vector<std::size_t>& edges,
+                  double tolerance)
 {
     shells_.clear();
     // Fits one shell to the intervals first .. last-1; returns whether all samples lie within the tolerance.
@@ -117,8 +131,10 @@ void Profile::fit(const std::vector<double>& stations, const std::vector<Sample>
         return true;
     };
 
-    const std::size_t count = stations.size() - 1;
-    for (std::size_t first = 0; first < count;) {
+    auto edge = edges.begin();
+    for (std::size_t first = 0; first < edges.back();) {
+        edge += first == *edge;
+        const std::size_t count = *edge;
         // Gallop to a length that fails, then bisect to the longest that fits. One interval is always accepted.
         std::size_t good = 1, bad = 2;
         while (first + bad <= count && fits(first, first + bad)) {
@@ -236,6 +252,11 @@ double Profile::extinction(double altitude) const
 {
     const double x = radialSquare(planetRadius_, altitude);
     return std::max(0.0, shells_[shellAt(x)].value(x));
+}
+
+std::array<double, 2> Profile::altitudesOf(int shell) const
+{
+    return {altitudeOf(planetRadius_, shells_[shell].low), altitudeOf(planetRadius_, shells_[shell].high)};
 }
 
 double Profile::middleAltitude(int shell) const { return altitudeOf(planetRadius_, shells_[shell].middle); }

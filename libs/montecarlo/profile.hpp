@@ -27,6 +27,7 @@ struct Leg {
 /// The atmosphere as a few dozen concentric shells, in each of which the extinction is a polynomial of degree 5 in
 /// X = r^2 - R^2. As X is quadratic along a ray, its integral over a shell is a polynomial too, and Gauss' rule with
 /// 6 nodes has no error. The polynomials are least-square fits that keep the shell's vertical integral.
+/// Where a species begins or ends, so does a shell: a dense one would leave the fit no sign of a thin one beside it.
 ///   error   of an optical depth against the tables: 1e-6 relative where they are smooth; tests/montecarlo/profile.cpp
 class Profile
 {
@@ -37,6 +38,7 @@ public:
     double topOfAtmosphere() const { return topOfAtmosphere_; }
     int shellCount() const { return static_cast<int>(shells_.size()); }
     double middleAltitude(int shell) const;
+    std::array<double, 2> altitudesOf(int shell) const; ///< of its lower and its upper end, m
 
     /// Extinction coefficient at an altitude, from the fits, 1/m.
     double extinction(double altitude) const;
@@ -61,7 +63,9 @@ private:
     struct Sample {
         double x, beta, weight; // Gauss nodes inside the intervals of the tables
     };
-    void fit(const std::vector<double>& stations, const std::vector<Sample>& samples, double tolerance);
+    /// \param edges  among the stations, which no shell reaches over; the last one is the top
+    void fit(const std::vector<double>& stations, const std::vector<Sample>& samples, const std::vector<std::size_t>& edges,
+             double tolerance);
     int shellAt(double x) const;
     template<class Visit>
     void walk(const Ray& ray, Visit&& visit) const;

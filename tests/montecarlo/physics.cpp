@@ -103,6 +103,32 @@ TEST_CASE("multiple scattering vanishes as the square of a thin layer")
     CHECK(r.multiple > 0);
 }
 
+TEST_CASE("thin air about smoke: light of the ground below it is found, closed form")
+{
+    // All but a billionth of what meets a path is smoke, from 400 to 600 m; most light comes from the thin air below.
+    const double scattering = 1e-9, smoke = 2, mu0 = 0.6;
+    auto medium = test::flatLayer(scattering, 1, 1, test::isotropicPhase);
+    medium.altitudes = {0, 400, 400.001, 600, 600.001, 1000};
+    medium.species[0].numberDensity.assign(6, 1);
+    medium.species.push_back(medium.species[0]);
+    medium.species[1].numberDensity = {0, 0, 1, 1, 0, 0};
+    medium.species[1].extinctionCrossSection = {smoke / 200};
+    medium.species[1].singleScatteringAlbedo = {0};
+    const Result r = Reference(medium).radiance(fromBelow(1, mu0), fixed(1 << 16));
+    const auto e2 = [](double t) { return t > 0 ? std::exp(-t) + t * std::expint(-t) : 1; };
+    const Rule rule = gaussLegendre(64);
+    double inside = 0;
+    for (std::size_t i = 0; i < rule.node.size(); ++i) {
+        const double t = smoke * 0.5 * (1 + rule.node[i]);
+        inside += 0.5 * rule.weight[i] * std::exp(-t) * e2(t);
+    }
+    const double ground = mu0 * std::exp(-smoke / mu0) / pi;
+    const double multiple = ground * scattering / 2 * (0.4 + 0.2 * inside + 0.4 * std::exp(-smoke) * e2(smoke));
+    const double noise = r.multipleStderr / multiple;
+    CHECK(noise < 0.01);
+    CHECK(r.multiple / multiple == Approx(1).margin(4 * noise + 1e-4));
+}
+
 TEST_CASE("isotropic, flat and deep: Chandrasekhar's H function")
 {
     double squares = 0;
