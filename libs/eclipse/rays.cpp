@@ -5,6 +5,7 @@
 #include "eclipse/frame.hpp"
 #include "physics/directions.hpp"
 #include "physics/harmonics.hpp"
+#include "physics/levels.hpp"
 #include "physics/moments.hpp"
 #include "physics/table_axes.hpp"
 #include <algorithm>
@@ -46,7 +47,7 @@ std::vector<double> gridAltitudes(const physics::Medium& medium, const physics::
     const double highest = highestLevel(medium, optics);
     const double more = physics::horizonDistance(planet, planet.topOfAtmosphere) / physics::horizonDistance(planet, highest);
     const int whole = static_cast<int>(std::ceil((count - 1) * more)) + 1;
-    auto levels = physics::MomentGrid(profile, largest, whole, 2).altitudes();
+    auto levels = physics::fieldLevels(profile, largest, whole);
     const auto last = std::lower_bound(levels.begin() + 1, levels.end() - 1, highest);
     levels.erase(last + 1, levels.end());
     return levels;

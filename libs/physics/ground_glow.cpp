@@ -4,6 +4,7 @@
 #include "physics/directions.hpp"
 #include "physics/glow_light.hpp"
 #include "physics/harmonics.hpp"
+#include "physics/levels.hpp"
 #include "physics/series.hpp"
 #include "physics/table_axes.hpp"
 #include <cmath>
@@ -148,7 +149,7 @@ MomentGrid glowGrid(const Profile& profile, const Optics& optics, const GlowSett
         const auto begin = optics.extinction.begin() + s * optics.wavelengths;
         largest.push_back(*std::max_element(begin, begin + optics.wavelengths));
     }
-    return MomentGrid(profile, largest, settings.altitudes, 2);
+    return MomentGrid(profile.planet(), fieldLevels(profile, largest, settings.altitudes), -1, 2);
 }
 
 Profile glowProfile(const Medium& medium)

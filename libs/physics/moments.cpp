@@ -15,33 +15,24 @@ using base::pi;
 /// Neighbouring intervals, as a share of this one, below which a level counts as an end.
 constexpr double unevenness = 0.25;
 
-/// Beyond, days would be coarse for the sake of a sunset that lasts seconds.
-constexpr double mostSunScale = 8;
-
-/// Scale of the axis of elevations whose step at the horizon, proportional to a / sinh a, is to a sunset of that angle as on Earth.
-double sunScaleFor(const double sunset)
-{
-    const double least = MomentGrid::leastSunScale, wanted = std::min(1., sunset / usualSunset) * least / std::sinh(least);
-    double low = least, high = mostSunScale; // a / sinh a falls
-    for (int i = 0; i < 60; ++i) {
-        const double a = 0.5 * (low + high);
-        (a / std::sinh(a) > wanted ? low : high) = a;
-    }
-    return low;
-}
+/// Night beyond three dips of the horizon, where the Sun sets as on Earth, rad.
+constexpr double usualNight = 0.02;
 
 } // namespace
 
 MomentGrid::MomentGrid(const Profile& profile, const std::vector<double>& largestExtinction, const int altitudeCount, const int sunCount,
                        const double sunRadius)
-    : planet_(profile.planet()), sunCount_(sunCount)
 {
-    altitudes_ = fieldLevels(profile, largestExtinction, altitudeCount);
-
+    // Twilight is as wide as the angle over which the Sun goes out: steps about the horizon are in proportion to it, and there are so many
+    // more of them that elsewhere they stay as long.
+    const double dip = dipOfAir(profile, largestExtinction), share = std::min(1., (dip + 2 * sunRadius) / usualSunset);
+    const double scale = std::asinh(std::sinh(leastSunScale) / share);
     // Where the air above a millionth of the column ends, three horizon dips below the horizontal is night everywhere.
-    const double dip = dipOfAir(profile, largestExtinction);
-    lowest_ = std::max(-pi / 2, -3.2 * dip - std::max(0.02, 2 * sunRadius));
-    *this = MomentGrid(planet_, altitudes_, lowest_, sunCount_, sunScaleFor(dip + 2 * sunRadius));
+    const double lowest = std::max(-pi / 2, -3.2 * dip - std::max(usualNight * share, 2 * sunRadius));
+    const double night = std::asinh(-lowest / (pi / 2) * std::sinh(scale));
+    const auto steps = std::lround((sunCount - 1) * (scale + night) / (leastSunScale + night));
+    *this =
+        MomentGrid(profile.planet(), fieldLevels(profile, largestExtinction, altitudeCount), lowest, static_cast<int>(steps) + 1, scale);
 }
 
 MomentGrid::MomentGrid(const Planet planet, std::vector<double> altitudes, const double lowestElevation, const int sunCount,

@@ -34,7 +34,7 @@ FieldWork fieldWorkOf(const physics::Medium& medium, const Options& options, con
     const auto optics = physics::makeOptics(medium, settings.degree, settings.truncatePeaks);
     const physics::MomentGrid grid(profile, physics::largestExtinctions(optics), settings.altitudes, settings.suns,
                                    medium.sunAngularRadius);
-    const double levels = grid.altitudeCount(), suns = settings.suns, wavelengths = medium.wavelengthCount();
+    const double levels = grid.altitudeCount(), suns = grid.sunCount(), wavelengths = medium.wavelengthCount();
     const double sets = (medium.wavelengthCount() + 3) / 4, scatterers = double(optics.scatterers.size());
     const double directions = settings.groundDirections + settings.limbDirections + settings.skyDirections, rays = levels * directions;
     const double harmonics = physics::harmonicCount(settings.degree);

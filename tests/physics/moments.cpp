@@ -184,19 +184,22 @@ TEST_CASE("grid of the moments: levels at the edges of a cloud and inside it, in
         }
 }
 
-TEST_CASE("grid of the moments: a sunset meets as many Suns on any planet, and noon its share")
+TEST_CASE("grid of the moments: a sunset meets as many Suns on any planet, however small the Sun is, and noon its share")
 {
-    for (const double radius : {1e5, 6.371e6, 1e8, 1e10}) {
-        const double top = std::min(20e3, radius / 20), disc = 0.0047;
-        const Profile profile(sky::test::withDensity(sky::test::layer(1, 1, 0, sky::test::isotropicPhase, radius), {0, top}, {1, 1}));
-        const MomentGrid grid(profile, {0.1 / top}, 12, 28, disc);
-        const double sunset = 2 * disc - horizonElevation({radius, top}, top);
-        INFO("radius " << radius << " scale " << grid.sunScale());
-        CHECK(grid.sunPosition(0.5 * sunset) - grid.sunPosition(-0.5 * sunset) > 4);
-        CHECK(grid.sunElevation(26) > 0.7 * pi / 2);
-        CHECK(grid.sunElevation(0) < -2 * sunset);
-        CHECK(grid.sunPosition(grid.sunElevation(7)) == Approx(7));
-    }
+    for (const double radius : {1e5, 6.371e6, 1e8, 1e10})
+        for (const double disc : {0.0047, 0.}) {
+            const double top = std::min(20e3, radius / 20);
+            const Profile profile(sky::test::withDensity(sky::test::layer(1, 1, 0, sky::test::isotropicPhase, radius), {0, top}, {1, 1}));
+            const MomentGrid grid(profile, {0.1 / top}, 12, 28, disc);
+            const double dip = -horizonElevation({radius, top}, top), sunset = 2 * disc + dip;
+            INFO("radius " << radius << " disc " << disc << " scale " << grid.sunScale() << " Suns " << grid.sunCount());
+            CHECK(grid.sunPosition(0.5 * sunset) - grid.sunPosition(-0.5 * sunset) > 4);
+            CHECK(grid.sunElevation(grid.sunCount() - 2) > 0.7 * pi / 2);
+            CHECK(grid.sunElevation(0) < -2 * dip - 1.5 * disc); // no air is lit
+            CHECK(grid.sunPosition(grid.sunElevation(7)) == Approx(7));
+            CHECK(grid.sunCount() < 28 * 2);
+            CHECK((sunset < usualSunset || grid.sunCount() == 28));
+        }
 }
 
 TEST_CASE("grid of the moments: levels follow haze whose profile has no nodes of its own")

@@ -88,6 +88,38 @@ TEST_CASE("a planet of 400 metres has the sky of the Earth, and so has one of 70
     }
 }
 
+TEST_CASE("twilight of a planet of 10 Gm, which ends within a tenth of a degree, has the light that more Suns find")
+{
+    auto air = scaled(sky::test::exponentialAir(0.1, 0.3, sky::test::rayleighPhase), 0.085);
+    air.planetRadius = 1e10;
+    auto settings = coarse(2);
+    settings.suns = 28;
+    const Profile profile(air);
+    const Optics optics = makeOptics(air, settings.degree, true);
+    const SunTable sun(profile, optics, air.sunAngularRadius);
+    const MomentGrid usual(profile, {optics.extinction[0]}, settings.altitudes, settings.suns);
+    const MomentGrid more(profile.planet(), usual.altitudes(), usual.lowestElevation(), 6 * usual.sunCount() - 5, usual.sunScale());
+    const Moments field = iterateSource(air, profile, optics, sun, usual, settings, 1),
+                  truth = iterateSource(air, profile, optics, sun, more, settings, 1);
+    const auto lightAt = [&](const Moments& moments, double elevation) {
+        std::vector<double> values(harmonicCount(settings.degree));
+        moments.interpolate(0, std::sin(elevation), values.data());
+        return values[0];
+    };
+    const double noon = lightAt(truth, pi / 2);
+    double squares = 0;
+    int count = 0;
+    for (double elevation = 0; elevation > -0.002; elevation -= 1e-5) {
+        const double light = lightAt(truth, elevation);
+        if (light < 1e-6 * noon)
+            break;
+        squares += std::pow(lightAt(field, elevation) / light - 1, 2);
+        ++count;
+    }
+    CHECK(count > 40);
+    CHECK(std::sqrt(squares / count) < 0.1); // most of it where a millionth of the light is left
+}
+
 TEST_CASE("haze from thin to thick that does not absorb, over white ground: all light comes back")
 {
     auto settings = coarse(4);
