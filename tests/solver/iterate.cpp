@@ -1,60 +1,15 @@
-#include "solver/iterate.hpp"
 #include "../gl/context_for_tests.hpp"
 #include "../montecarlo/sample_air.hpp"
 #include "../physics/media.hpp"
 #include "physics/harmonics.hpp"
-#include "physics/source_iteration.hpp"
+#include "small_world.hpp"
 #include <cmath>
 
 using namespace sky;
+using test::smallSettings;
+using test::SmallWorld;
 
 namespace {
-
-struct World {
-    physics::Medium medium;
-    physics::MomentSettings settings;
-    physics::Profile profile;
-    physics::Optics optics;
-    physics::SunTable sun;
-    physics::MomentGrid grid;
-    World(physics::Medium m, const physics::MomentSettings& s)
-        : medium(std::move(m)), settings(s), profile(medium), optics(physics::makeOptics(medium, s.degree, s.truncatePeaks)),
-          sun(profile, optics, medium.sunAngularRadius, 48, 64), grid(profile, largest(), s.altitudes, s.suns)
-    {
-    }
-    World(const World&) = delete;
-    solver::Scene scene() const { return {medium, profile, optics, sun}; }
-    physics::Moments twin(int events) const
-    {
-        return iterateSource(medium, profile, optics, sun, grid, settings, events, solver::sweepRefinement);
-    }
-
-private:
-    std::vector<double> largest() const
-    {
-        std::vector<double> sigma(optics.species, 0.);
-        for (int s = 0; s < optics.species; ++s)
-            for (int w = 0; w < optics.wavelengths; ++w)
-                sigma[s] = std::max(sigma[s], optics.extinction[s * optics.wavelengths + w]);
-        return sigma;
-    }
-};
-
-/// Coarse, for a software driver: what is compared are two ways to compute the same sums.
-physics::MomentSettings smallSettings(int degree)
-{
-    physics::MomentSettings s;
-    s.altitudes = 6;
-    s.suns = 28;
-    s.degree = degree;
-    s.groundDirections = 3;
-    s.limbDirections = 2;
-    s.skyDirections = 4;
-    s.azimuths = degree + 1;
-    s.directNodes = 16;
-    s.nodes = 8;
-    return s;
-}
 
 /// Largest difference of ln I_00, of ratios, and of ln of the ground's irradiance, for Suns above an elevation.
 struct Difference {
@@ -87,7 +42,7 @@ TEST_CASE("iteration on the GPU agrees with its twin in double precision, event 
     if (!context)
         return;
     for (const auto aerosol : {test::Aerosol::No, test::Aerosol::Yes}) {
-        const World world(test::sampleEarth(aerosol), smallSettings(aerosol == test::Aerosol::No ? 2 : 4));
+        const SmallWorld world(test::sampleEarth(aerosol), smallSettings(aerosol == test::Aerosol::No ? 2 : 4));
         double progress = 0;
         const auto field =
             solver::iterate(context->api(), world.scene(), world.grid, world.settings, {4, false, 0}, true, [&](double fraction) {
@@ -113,7 +68,7 @@ TEST_CASE("iteration: all orders are more than four and no more than the remaind
     const auto context = gl::testing::context();
     if (!context)
         return;
-    const World world(test::sampleEarth(test::Aerosol::No), smallSettings(2));
+    const SmallWorld world(test::sampleEarth(test::Aerosol::No), smallSettings(2));
     const auto quiet = [](double) {};
     const auto all = solver::iterate(context->api(), world.scene(), world.grid, world.settings, {0, true, 1e-3}, false, quiet);
     CHECK(all.eventCount > 4);
@@ -129,6 +84,27 @@ TEST_CASE("iteration: all orders are more than four and no more than the remaind
     CHECK(all.total.at(0, world.grid.sunCount() - 1)[0] > many.total.at(0, world.grid.sunCount() - 1)[0] - 1e-4);
 }
 
+TEST_CASE("iteration: late events of deep air, told at once, are what they add up to one by one", "[gl]")
+{
+    const auto context = gl::testing::context();
+    if (!context)
+        return;
+    physics::MomentSettings settings = smallSettings(2);
+    settings.altitudes = 10;
+    const SmallWorld world(test::layer(12, 0.98, 0.3, test::rayleighPhase), settings);
+    const auto quiet = [](double) {};
+    const auto all = solver::iterate(context->api(), world.scene(), world.grid, world.settings, {0, true, 1e-3}, false, quiet);
+    CHECK(all.irradiance.size() == 16); // what is computed by itself
+    CHECK(all.eventCount < 24);
+    CHECK(all.ended);
+    // The shape of light that lasts longest keeps 0.98 (1 - (pi / (12 + 2 q))^2 / 3) = 0.96 from one event to the next, with q = 0.71.
+    const auto many = solver::iterate(context->api(), world.scene(), world.grid, world.settings, {300, false, 0}, false, quiet);
+    const Difference d = difference(all.total, many.total, 0.01); // below, all is dark
+    CHECK(d.logarithm < 1e-3);                                    // the tolerance
+    CHECK(d.ratio < 1e-3);
+    CHECK(d.ground < 1e-3);
+}
+
 TEST_CASE("iteration: through air 100 deep that absorbs nothing comes what the asymptotic theory says, without hundreds of events", "[gl]")
 {
     const auto context = gl::testing::context();
@@ -142,7 +118,7 @@ TEST_CASE("iteration: through air 100 deep that absorbs nothing comes what the a
     settings.directNodes = 64;
     settings.nodes = 15;
     const double depth = 100;
-    const World world(test::layer(depth, 1, 0, test::isotropicPhase), settings);
+    const SmallWorld world(test::layer(depth, 1, 0, test::isotropicPhase), settings);
     const auto all = solver::iterate(context->api(), world.scene(), world.grid, world.settings, {0, true, 2.5e-3}, false, [](double) {});
     CHECK(all.eventCount <= 24);
     CHECK(all.remainder < 2.5e-3);
