@@ -100,11 +100,12 @@ void EventTail::add(const Sums& fresh, const LayeredLight& layers, const double 
             for (int a = 0; a < levels; ++a) {
                 if (!lit(a))
                     continue;
-                const double swept = light_.moments[at(a, 0)];
+                const double swept = light_.moments[at(a, 0)], change = trust * (values[a * terms] - fresh.moments[at(a, 0)]);
+                // A correction that would leave less is taken in part, its directions too: more of them than of light is none.
+                const double part = swept + change < leastLeft * swept ? (1 - leastLeft) * swept / -change : 1;
                 for (int l = 0; l < terms; ++l)
-                    light_.moments[at(a, l)] += trust * (values[a * terms + l] - fresh.moments[at(a, l)]);
-                double& mean = light_.moments[at(a, 0)];
-                mean = std::max(mean, leastLeft * swept);
+                    light_.moments[at(a, l)] += part * trust * (values[a * terms + l] - fresh.moments[at(a, l)]);
+                const double mean = light_.moments[at(a, 0)];
                 double& irradiance = light_.irradiance[point(a) * wavelengths_ + w];
                 if (a == 0)
                     irradiance = std::max(irradiance + trust * (values.back() - fresh.irradiance[point(0) * wavelengths_ + w]),
