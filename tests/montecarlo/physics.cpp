@@ -90,7 +90,7 @@ TEST_CASE("single scattering of a layer too deep for even steps: closed form")
             const Reference reference(test::flatLayer(depth, 0.8, 0, test::isotropicPhase));
             const double mu = 0.7, up = 0.8 / (4 * pi) * mu0 / (mu + mu0);
             INFO("optical depth " << depth << ", Sun " << mu0);
-            // 1e-4: the halved steps' own tolerance of 2e-5, and the bending of the air above a low Sun's light.
+            // 1e-4: the halved steps' own tolerance of 2e-5, and the curvature of the air that a low Sun's light passes.
             CHECK(reference.radiance(fromAbove(mu, mu0), fixed(2, 1)).single == Approx(up).epsilon(1e-4));
         }
 }
