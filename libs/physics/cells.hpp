@@ -85,6 +85,7 @@ struct NodeShares {
     double halvings = 0; ///< of the way to upper edges of the air: Profile::halvings
     double depth = 0;    ///< optical depth along the ray, mean of the wavelengths
     double bending = 0;  ///< of the field: `dimming`, as far as it is not too deep in thick air for the field to matter there
+    double skins = 0;    ///< of the field: `halvings` in the same way; it has few nodes, and its light is elsewhere too
 
     void operator+=(const NodeShares& other)
     {
@@ -95,6 +96,7 @@ struct NodeShares {
         halvings += other.halvings;
         depth += other.depth;
         bending += other.bending;
+        skins += other.skins;
     }
 };
 
@@ -106,8 +108,8 @@ inline NodeShares weighedAsSeen(std::vector<NodeShares>& cells)
     constexpr double unseen = 1e-20; // share of the light that an even ray would send from there
     constexpr double empty = 0.1;    // what air counts that scatters nothing: the shadow may begin in it,
     constexpr double hidden = 46;    // but not behind such an optical depth
-    constexpr double far = 12;       // optical depth behind which bending counts half,
-    constexpr double skin = 1;       // and edges do
+    constexpr double far = 12;       // optical depth behind which bending counts half, and so do edges to sunlight,
+    constexpr double skin = 1;       // and to the field
     NodeShares whole, seen;
     for (const NodeShares& cell : cells)
         whole += cell;
@@ -120,8 +122,10 @@ inline NodeShares weighedAsSeen(std::vector<NodeShares>& cells)
         cell.climb *= counts;
         cell.way *= counts;
         cell.dimming *= counts;
-        cell.bending = cell.dimming * far * far / (far * far + passed * passed);
-        cell.halvings *= counts * skin / (skin + passed);
+        const double matters = far * far / (far * far + passed * passed);
+        cell.bending = cell.dimming * matters;
+        cell.skins = cell.halvings * counts * skin / (skin + passed);
+        cell.halvings *= counts * matters;
         passed += cell.depth;
         seen += cell;
     }
@@ -137,20 +141,20 @@ public:
     NodeMeasure(const NodeShares& whole, NodesFor nodesFor)
     {
         const bool sunlight = nodesFor == NodesFor::Sunlight;
-        const double edges = (sunlight ? 0.5 : 0.4) * whole.halvings / (8 + whole.halvings);
+        const double skins = sunlight ? whole.halvings : whole.skins, edges = (sunlight ? 0.5 : 0.4) * skins / (8 + skins);
         const double thick = sunlight ? whole.dimming : whole.bending, depth = (sunlight ? 0.3 : 0.8) * thick / (1 + thick);
         const double others = (1 - edges) * (1 - depth), perDepth = per((1 - edges) * depth, thick);
         per_.light = per(0.3 * others, whole.light);
         per_.climb = per(0.2 * others, whole.climb);
         per_.way = per(0.5 * others, whole.way);
         (sunlight ? per_.dimming : per_.bending) = perDepth;
-        per_.halvings = per(edges, whole.halvings);
+        (sunlight ? per_.halvings : per_.skins) = per(edges, skins);
     }
     /// Of a cell; the whole ray has 1.
     double of(const NodeShares& cell) const
     {
         return per_.light * cell.light + per_.climb * cell.climb + per_.way * cell.way + per_.dimming * cell.dimming +
-               per_.halvings * cell.halvings + per_.bending * cell.bending;
+               per_.halvings * cell.halvings + per_.bending * cell.bending + per_.skins * cell.skins;
     }
 
 private:

@@ -2,6 +2,7 @@
 
 #include "../physics/media.hpp"
 #include "photometry_gather.hpp"
+#include "physics/sky.hpp"
 #include <catch2/catch.hpp>
 
 namespace physics = sky::physics;
@@ -26,4 +27,28 @@ TEST_CASE("photometry: a low Sun lights only a skin of thick air, in closed form
                 CHECK(light == Approx(muSun / (muSun + mu) / (4 * pi)).epsilon(0.05));
             }
     }
+}
+
+TEST_CASE("photometry: the lit skin of thick air, seen through all of it, in closed form")
+{
+    // p mu0 / (mu - mu0) (exp(-tau / mu) - exp(-tau / mu0)): a skin of mu0, behind an optical depth of tau / mu.
+    const double tau = 10;
+    const physics::Medium medium = sky::test::layer(tau, 1, 0, sky::test::isotropicPhase);
+    const physics::Profile profile(medium);
+    const physics::Optics optics = physics::makeOptics(medium, 4, false);
+    const physics::SunTable sun(profile, optics, medium.sunAngularRadius);
+    const showmysky::FastGather gather(medium, optics, sun, nullptr);
+    const physics::SkyEvaluator evaluator(medium, profile, optics, sun);
+    physics::RayTracer tracer(profile, optics);
+    showmysky::FastScratch scratch;
+    for (const double muSun : {0.05, 0.005, 0.001})
+        for (const double mu : {1., 0.8}) {
+            double fast = -1, precise = -1;
+            gather.radiance(scratch, 0, mu, muSun, mu * muSun, {true, false, true}, &fast);
+            evaluator.radiance(tracer, nullptr, 0, mu, muSun, mu * muSun, {}, &precise);
+            const double light = muSun / (mu - muSun) * (std::exp(-tau / mu) - std::exp(-tau / muSun)) / (4 * pi);
+            INFO("muSun " << muSun << " mu " << mu);
+            CHECK(fast == Approx(light).epsilon(0.1)); // two nodes for each halving of the way to the edge
+            CHECK(precise == Approx(light).epsilon(0.1));
+        }
 }
