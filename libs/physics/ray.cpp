@@ -28,11 +28,7 @@ void shareOut(const PartLight<double>& part, double column, double centreOfDensi
     }
 }
 
-/// Light that passes a cell of a ray, all [wavelength].
-///   tau            optical depth of the cell
-///   transmittance  up to the cell, then up to its end
-///   mean           transmittance to the viewer, the exact mean over the cell
-///   shift          of the centre from which its light comes, in lengths of the cell
+/// RayTracer::pass, once the optical depths are known.
 SKY_WIDEST_VECTORS
 void passCell(const double* __restrict tau, int wavelengths, double* __restrict transmittance, double* __restrict mean,
               double* __restrict shift)
@@ -165,28 +161,33 @@ void RayTracer::columns(const double altitude, const double mu, double* const re
         result[i % species] += columns_[i];
 }
 
+void RayTracer::pass(const int cell, double* const tau, double* const transmittance, double* const mean, double* const shift) const
+{
+    const int wavelengths = optics_.wavelengths, species = optics_.species;
+    std::fill(tau, tau + wavelengths, 0.);
+    for (int s = 0; s < species; ++s)
+        for (int w = 0; w < wavelengths; ++w)
+            tau[w] += columns_[cell * species + s] * optics_.extinction[s * wavelengths + w];
+    passCell(tau, wavelengths, transmittance, mean, shift);
+}
+
 SeenColumns RayTracer::seen(const double altitude, const double mu, const bool hits)
 {
     walk(underEdges_, altitude, mu, hits, limits_);
     const int wavelengths = optics_.wavelengths, species = optics_.species;
     const int cells = static_cast<int>(bounds_.size()) - 1, scatterers = static_cast<int>(optics_.scatterers.size());
     SeenColumns result{bounds_, std::vector<double>(size_t(cells + 1) * scatterers * wavelengths, 0.), {}, {}};
-    std::vector<double> transmittance(wavelengths, 1.);
+    std::vector<double> transmittance(wavelengths, 1.), tau(wavelengths), mean(wavelengths), shift(wavelengths);
     result.transmittance = transmittance;
     result.transmittance.reserve(size_t(cells + 1) * wavelengths);
     for (int c = 0; c < cells; ++c) {
-        for (int w = 0; w < wavelengths; ++w) {
-            double tau = 0;
-            for (int s = 0; s < species; ++s)
-                tau += columns_[c * species + s] * optics_.extinction[s * wavelengths + w];
-            const double lost = -std::expm1(-tau), mean = transmittance[w] * (tau > 1e-9 ? lost / tau : 1 - 0.5 * tau);
-            transmittance[w] *= 1 - lost;
-            for (int i = 0; i < scatterers; ++i) {
-                const int s = optics_.scatterers[i];
-                const size_t at = (size_t(c) * scatterers + i) * wavelengths + w;
-                result.seen[at + size_t(scatterers) * wavelengths] =
-                    result.seen[at] + columns_[c * species + s] * optics_.scattering[s * wavelengths + w] * mean;
-            }
+        pass(c, tau.data(), transmittance.data(), mean.data(), shift.data());
+        for (int i = 0; i < scatterers; ++i) {
+            const int s = optics_.scatterers[i];
+            const size_t at = (size_t(c) * scatterers + i) * wavelengths;
+            for (int w = 0; w < wavelengths; ++w)
+                result.seen[at + size_t(scatterers) * wavelengths + w] =
+                    result.seen[at + w] + columns_[c * species + s] * optics_.scattering[s * wavelengths + w] * mean[w];
         }
         result.transmittance.insert(result.transmittance.end(), transmittance.begin(), transmittance.end());
     }
@@ -207,7 +208,7 @@ RayNodes RayTracer::trace(const double altitude, const double mu, const int coun
     const double length = bounds_.back();
 
     // What each cell contributes: sum over species of sigma_sca N T (1 - exp(-tau)) / tau, the exact mean over the cell.
-    std::vector<double> depth(wavelengths, 0.), seen(cells * wavelengths), measure(cells + 1, 0.);
+    std::vector<double> tau(wavelengths), seen(cells * wavelengths), measure(cells + 1, 0.);
     std::vector<NodeShares> shares(cells);
     // A cell's light comes from its centre of density, shifted towards the viewer by attenuation (in lengths of the cell).
     std::vector<double> shift(cells * wavelengths);
@@ -215,13 +216,8 @@ RayNodes RayTracer::trace(const double altitude, const double mu, const int coun
     for (int c = 0; c < cells; ++c) {
         const double* column = &columns_[c * species];
         double* mean = &seen[c * wavelengths];
-        std::vector<double>& tau = depth;
-        std::fill(tau.begin(), tau.end(), 0.);
-        for (int s = 0; s < species; ++s)
-            for (int w = 0; w < wavelengths; ++w)
-                tau[w] += column[s] * optics_.extinction[s * wavelengths + w];
         double scattered = 0;
-        passCell(tau.data(), wavelengths, transmittance.data(), mean, &shift[size_t(c) * wavelengths]);
+        pass(c, tau.data(), transmittance.data(), mean, &shift[size_t(c) * wavelengths]);
         for (const int s : optics_.scatterers)
             for (int w = 0; w < wavelengths; ++w)
                 scattered += column[s] * optics_.scattering[s * wavelengths + w] * mean[w];

@@ -72,6 +72,12 @@ public:
 private:
     void walk(const Profile& profile, double altitude, double mu, bool hitsGround, const CellLimits& limits,
               double deepest = std::numeric_limits<double>::infinity());
+    /// Light that passes a cell of the ray that was walked, all [wavelength].
+    ///   tau            optical depth of the cell
+    ///   transmittance  up to the cell, then up to its end
+    ///   mean           transmittance to the viewer, the exact mean over the cell
+    ///   shift          of the centre from which its light comes, in lengths of the cell
+    void pass(int cell, double* tau, double* transmittance, double* mean, double* shift) const;
 
     const Profile& profile_;
     const Profile underEdges_; // the same, with shells there
