@@ -1,6 +1,7 @@
 #include "solver/field_work.hpp"
 #include "physics/harmonics.hpp"
 #include "physics/moments.hpp"
+#include "solver/layered_light.hpp"
 #include "solver/plan.hpp"
 #include "solver/quality.hpp"
 #include <algorithm>
@@ -55,7 +56,9 @@ FieldWork fieldWorkOf(const physics::Medium& medium, const Options& options, con
     const double results =
         rays * suns * sets * 16 * (settings.azimuths + (lightAzimuths < settings.azimuths ? lightAzimuths * (scatterers + 1) : 0));
     const double bound = double(resultBytes(options));
-    work.bytes = field * (5 * 8 + 4 + (orders > 0 ? 0 : 4 * std::min(8, events)));             // sums and moments; the fold's; kept events
+    work.bytes = field * (5 * 8 + 4 + (orders > 0 ? 0 : 4 * std::min(8, events))); // sums and moments; the fold's; kept events
+    if (orders <= 0)                                                               // late events may have to be told at once
+        work.bytes += LayeredLight::bytes(grid.altitudeCount(), medium.wavelengthCount(), settings.degree);
     work.bytes += 2 * (bound > 0 ? std::min(bound, results) : results);                        // on the GPU and its copy
     work.bytes += rays * settings.nodes * ((settings.degree + 1) * sets * 16 + harmonics * 4); // what depends on rays alone
     work.bytes += 2 * rays * settings.directNodes * scatterers * sets * 16;

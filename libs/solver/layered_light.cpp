@@ -60,6 +60,12 @@ LayeredLight::LayeredLight(std::vector<double> shape, const int wavelengths, con
     }
 }
 
+double LayeredLight::bytes(const int levels, const int wavelengths, const int degree)
+{
+    const double rows = double(levels) * (std::min(degree, lasting) + 1) + 1;
+    return wavelengths * rows * rows * sizeof(double);
+}
+
 /// Of the four levels of a stencil. Cubics, as the field is interpolated, where the shape is gentle; else straight between two, so that no
 /// weight is negative and light can't become so.
 std::array<double, 4> LayeredLight::weightsAt(const ScatteredRays::FoldNode& node, const int w) const

@@ -7,10 +7,10 @@
 namespace sky::solver {
 
 /// Light scattered any number of times in air over which it is everywhere the same: as it would be were there one Sun for all places. It
-/// knows no azimuths and of the harmonics the lowest, which are those that last: in deep air light diffuses, and what horizontal
-/// differences, azimuths and higher harmonics add dies out within few events. So it tells what the events that follow will add up to, up
-/// to a small rest (docs/method 5): the operator that makes one event of another, taken level by level from the same rays, is small enough
-/// to be inverted.
+/// knows no azimuths and of the harmonics the lowest, which are those that last: in deep air light spreads by diffusion, and what
+/// horizontal differences, azimuths and higher harmonics add dies out within few events. So it tells what the events that follow will add
+/// up to, up to a small rest (docs/method 5): the operator that makes one event of another, taken level by level from the same rays, is
+/// small enough to be inverted.
 class LayeredLight
 {
 public:
@@ -29,6 +29,9 @@ public:
     /// Adds to an event what follows from it, all events.
     ///   values  [level][l] of one wavelength and Sun, I_l0; then the downward irradiance of the ground
     void addFollowing(int wavelength, double* values) const;
+
+    /// Bytes that the matrices of so many levels take.
+    static double bytes(int levels, int wavelengths, int degree);
 
     int wavelengths() const { return wavelengths_; }
     int valueCount() const { return levels_ * (degree_ + 1) + 1; }

@@ -1,5 +1,6 @@
 // What a run says before it begins: what it skips and why, and how much it will take.
 #include "solver/plan.hpp"
+#include "solver/layered_light.hpp"
 #include "solver/medium_tables.hpp"
 #include "support.hpp"
 
@@ -140,6 +141,11 @@ TEST_CASE("plan: what the air asks for is known once its blocks have run", "[gl]
     CHECK(thick.memoryBytes > thin.memoryBytes);
     CHECK(thick.diskBytes > 5 * thin.diskBytes);
     CHECK(thick.seconds > 2 * thin.seconds);
+    SceneText few = cloud;
+    few.orders = "2"; // nothing to keep or to invert for later ones
+    CHECK(momentsOf(few).memoryBytes < thick.memoryBytes);
+    CHECK(LayeredLight::bytes(46, 3, 0) == 3 * 47. * 47 * 8); // a value a level, and the ground's
+    CHECK(LayeredLight::bytes(46, 1, 14) == 139. * 139 * 8);  // three harmonics at most
     Options options = draft();
     options.maxMemoryBytes = 1;
     CHECK(momentsOf(cloud, options).memoryBytes < thick.memoryBytes);
