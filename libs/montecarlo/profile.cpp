@@ -46,7 +46,7 @@ bool edgeAt(const Medium& medium, std::size_t node)
 {
     return std::any_of(medium.species.begin(), medium.species.end(), [&](const Species& species) {
         const auto& n = species.numberDensity;
-        return (n[node] == 0 && (n[node - 1] > 0 || n[node + 1] > 0));
+        return n[node] == 0 && (n[node - 1] > 0 || n[node + 1] > 0);
     });
 }
 
@@ -100,7 +100,7 @@ Profile::Profile(const Medium& medium, int wavelength) : planetRadius_(medium.pl
     edges.push_back(stations.size() - 1);
     for (double tolerance = 2e-6; tolerance < 2e-4; tolerance *= 3) {
         fit(stations, samples, edges, tolerance);
-        if (shellCount() <= enoughShells)
+        if (shellCount() <= enoughShells + static_cast<int>(edges.size()))
             return;
     }
 }
