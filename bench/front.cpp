@@ -149,7 +149,7 @@ void printFront(const std::string& name, const World& world, const Point& point,
     model::ErrorSummary sums[4]; // by regime; all seen from high up
     for (const auto& row : rows) {
         const int w = bench::wavelengthIndex(row, world.medium.wavelengthsNm);
-        if (w < 0)
+        if (w < 0 || !(row.radiance > 0)) // light that the judge didn't find has no relative error
             continue;
         const auto radiance = sky->radiance(row.geometry);
         const double error = (radiance.single[w] + radiance.multiple[w]) / row.radiance - 1;
