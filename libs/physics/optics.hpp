@@ -4,12 +4,14 @@
 
 namespace sky::physics {
 
-/// What radiative transfer needs of each species at each wavelength, with sharp forward peaks truncated (delta-M scaling) or blurred.
+/// What radiative transfer needs of each species at each wavelength, with sharp forward peaks truncated (delta-M scaling) and all sharp
+/// ones blurred.
 ///
 /// With f the truncated share of the phase function, extinction and scattering cross sections lose f sigma_sca and the
 /// Legendre moments become (lambda_l - f) / (1 - f). source: Wiscombe 1977, J. Atmos. Sci. 34, 1408.
-/// Thin air is not scaled. Of phase functions that are sharp a share b, what a forward peak has left of the last moments, is blurred to what
-/// the degree resolves: lambda_l - b (1 - k_l), with a filter k that falls from one to next to nothing at the degree.
+/// Thin air is not scaled. Of phase functions that are sharp a share b, what a peak has left of the last moments, is blurred to what the degree
+/// resolves: lambda_l - b (1 - k_l), with a filter k that falls from one to next to nothing at the degree; for a peak backward (-1)^l |b| in
+/// place of b.
 struct Optics {
     int degree = 0;
     int species = 0;
@@ -17,7 +19,7 @@ struct Optics {
     std::vector<double> extinction; ///< [species][wavelengths], m^2, scaled
     std::vector<double> scattering; ///< [species][wavelengths], m^2, scaled
     std::vector<double> truncation; ///< [species][wavelengths], f, 0..1
-    std::vector<double> blurred;    ///< [species][wavelengths], b, 0..1
+    std::vector<double> blurred;    ///< [species][wavelengths], b, 0..1, or of a peak backward -1..0
     std::vector<double> moments;    ///< [species][0..degree][wavelengths], lambda_l, scaled and blurred
     std::vector<int> scatterers;    ///< indices of the species that scatter at some wavelength
 
@@ -37,7 +39,7 @@ std::vector<double> largestExtinctions(const Optics& optics);
 /// Whether any peak is truncated.
 bool truncates(const Optics& optics);
 
-/// Whether any sharp peak is blurred.
+/// Whether any sharp peak forward is blurred.
 bool blurs(const Optics& optics);
 
 /// Up to this degree tables of the radiance field are interpolated by cubics, above it straight between two neighbours: what is above is a

@@ -112,14 +112,26 @@ TEST_CASE("sharp peaks: gentle ones are left alone, and all if told so")
     CHECK(makeOptics(sharp, 8, false).moment(0, 8, 0) == Approx(std::pow(0.99, 8)).epsilon(1e-3));
 }
 
-TEST_CASE("sharp peaks: one backward is not taken for one forward")
+TEST_CASE("sharp peaks: one backward fades as its mirror image would forward")
 {
-    for (const double opticalDepth : {1e-4, 10.}) {
-        const auto air = layer(opticalDepth, 1, 0, [](double t) { return henyeyGreenstein(-0.9, t); });
-        const Optics optics = makeOptics(air, 14, true);
-        for (int l = 0; l <= 14; ++l)
-            CHECK(optics.moment(0, l, 0) == Approx(std::pow(-0.9, l)).epsilon(1e-3));
-    }
+    for (const double opticalDepth : {1e-4, 10.})
+        for (const double g : {0.8, 0.9, 0.99})
+            for (const int degree : {8, 14, 20}) {
+                CAPTURE(opticalDepth, g, degree);
+                const auto back = layer(opticalDepth, 1, 0, [&](double t) { return henyeyGreenstein(-g, t); });
+                const Optics optics = makeOptics(back, degree, true);
+                CHECK(optics.truncation[0] == 0);
+                CHECK(optics.moment(0, 0, 0) == Approx(1).margin(3e-4)); // table of the phase function
+                CHECK(std::abs(optics.moment(0, degree, 0)) < 0.01);
+                const auto [lowest, highest] = extremes(optics);
+                CHECK(lowest > -0.02 * highest);
+                if (g > 0.85 && opticalDepth < 1) { // as thin as that, one forward is not truncated either
+                    const auto ahead = layer(opticalDepth, 1, 0, [&](double t) { return henyeyGreenstein(g, t); });
+                    const Optics mirrored = makeOptics(ahead, degree, true);
+                    for (int l = 0; l <= degree; ++l)
+                        CHECK(optics.moment(0, l, 0) == Approx((l % 2 ? -1 : 1) * mirrored.moment(0, l, 0)).margin(1e-3));
+                }
+            }
 }
 
 TEST_CASE("optics: absorbers extinguish and do not scatter")
