@@ -19,6 +19,14 @@ constexpr int mostSteps = 64;
 /// free path.
 double crowdingAtEnds(double opticalDepth) { return std::max(1., std::log(opticalDepth) / std::log(mostSteps / 2)); }
 
+/// Optical depth towards the Sun's centre, or towards the horizon where that hides it.
+double depthTowardsSun(const Profile& profile, const Place& place, Vec sun)
+{
+    const double radius = profile.planetRadius(), square = radialSquare(radius, place.altitude);
+    const double mu = std::max(dot(place.up, sun), -std::sqrt(square) / (radius + place.altitude));
+    return profile.opticalDepthToSpace(rayFrom(radius, {place.altitude, {0, 0, 1}}, {std::sqrt(std::max(0., 1 - mu * mu)), 0, mu}));
+}
+
 /// Place 0..1 in a segment after a share x of its steps.
 double crowded(double x, double power) { return x < 0.5 ? 0.5 * std::pow(2 * x, power) : 1 - 0.5 * std::pow(2 - 2 * x, power); }
 
@@ -34,19 +42,26 @@ double integrate(const Air& air, const Scene& scene, const Leg& leg, int halving
         // A step is short against the mean free path and against the turning of the vertical along the ray.
         const double length = segment.end - segment.begin;
         const double turns = length / (radius + scene.camera.altitude) / 0.003;
-        const int count = std::clamp(static_cast<int>(std::ceil(std::max(2 * segment.opticalDepth, turns))), 1, mostSteps) << halvings;
-        const double crowding = crowdingAtEnds(segment.opticalDepth);
+        const auto towardsSun = [&](double s) {
+            return depthTowardsSun(profile, moved(radius, scene.camera, scene.view, ray, s), scene.sun.centre());
+        };
+        // Of a low Sun a skin under an upper edge is lit, however shallow the segment is along the view.
+        const double lit = std::abs(towardsSun(segment.begin) - towardsSun(segment.end));
+        const double depth = std::max(segment.opticalDepth, lit > mostSteps ? lit : 0);
+        const int count = std::clamp(static_cast<int>(std::ceil(std::max(2 * std::min<double>(depth, mostSteps), turns))), 1, mostSteps)
+                          << halvings;
+        const double crowding = crowdingAtEnds(depth);
         for (int i = 0; i < count; ++i) {
             const double from = length * crowded(double(i) / count, crowding), step = length * crowded((i + 1.) / count, crowding) - from;
             for (std::size_t k = 0; k < steps.node.size(); ++k) {
                 const double s = segment.begin + from + step * (0.5 + 0.5 * steps.node[k]);
                 const Place place = moved(radius, scene.camera, scene.view, ray, s);
                 air.at(place.altitude, local);
-                const double depth = depthBefore + profile.partialDepth(ray, segment, s);
+                const double before = depthBefore + profile.partialDepth(ray, segment, s);
                 const double source = averageSun(scene, radius, place, across, along, [&](Vec sun) {
                     return air.transmittance(place, sun) * air.scatteredAt(local, angleBetween(sun, scene.view));
                 });
-                sum += 0.5 * step * steps.weight[k] * std::exp(-depth) * source;
+                sum += 0.5 * step * steps.weight[k] * std::exp(-before) * source;
             }
         }
         depthBefore += segment.opticalDepth;

@@ -95,6 +95,18 @@ TEST_CASE("single scattering of a layer too deep for even steps: closed form")
         }
 }
 
+TEST_CASE("single scattering of a skin lit by a low Sun: closed form, seen through thick air")
+{
+    const double depth = 10, mu = 0.8;
+    const Reference reference(test::flatLayer(depth, 1, 0, test::isotropicPhase));
+    for (const double mu0 : {0.05, 0.005, 1e-3}) {
+        const double down = mu0 / (mu - mu0) * (std::exp(-depth / mu) - std::exp(-depth / mu0)) / (4 * pi);
+        INFO("Sun " << mu0);
+        // 5e-4: the curvature of the air that the light of the lowest Sun passes.
+        CHECK(reference.radiance(fromBelow(mu, mu0), fixed(2, 1)).single == Approx(down).epsilon(5e-4));
+    }
+}
+
 TEST_CASE("multiple scattering vanishes as the square of a thin layer")
 {
     const Reference thin(test::flatLayer(1e-6, 1, 0, test::isotropicPhase));
