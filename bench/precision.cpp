@@ -41,7 +41,9 @@ int main(int argc, char** argv)
             if (!names.empty() && std::find(names.begin(), names.end(), air.name) == names.end())
                 continue;
             physics::MomentSettings normal = solver::qualityFor("normal", air.medium).moments;
-            normal.stationTolerance = 0; // a shortcut that the twin does not take
+            // Shortcuts that the twin does not take.
+            normal.stationTolerance = 0;
+            normal.lightAzimuths = 0;
             const test::World world(air.medium, normal, 1), finer(air.medium, normal, 1.5);
             const auto twin = world.seen(world.inDouble(air.events));
             const test::DayAndDusk rounding(world.seen(world.onGpu(context.api(), air.events)), twin);
