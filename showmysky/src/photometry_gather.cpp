@@ -329,9 +329,10 @@ void FastGather::radiance(FastScratch& scratch, const double altitude, const dou
     trace(scratch, altitude, mu);
     prepare(scratch);
     scratch.sum.assign(blocks_, Block{all(0)});
-    if (parts.single)
+    const bool scatters = scatterers_ > 0; // smoke has no phase functions to be asked
+    if (parts.single && scatters)
         gatherSingle(scratch, muSun, nu, parts.exactPhase);
-    if (parts.multiple && moments_)
+    if (parts.multiple && moments_ && scatters)
         gatherMultiple(scratch, muSun, nu);
     for (int w = 0; w < wavelengths_; ++w)
         result[w] = double(scratch.sum[w / count].v[w % count]);

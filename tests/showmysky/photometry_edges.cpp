@@ -1,4 +1,4 @@
-// Photometry at sharp upper edges of the air, where a low Sun lights only a skin of it.
+// Photometry at the edges: sharp upper ones of the air, where a low Sun lights only a skin of it, and air that scatters nothing.
 
 #include "../physics/media.hpp"
 #include "photometry_gather.hpp"
@@ -51,4 +51,26 @@ TEST_CASE("photometry: the lit skin of thick air, seen through all of it, in clo
             CHECK(fast == Approx(light).epsilon(0.1)); // two nodes for each halving of the way to the edge
             CHECK(precise == Approx(light).epsilon(0.1));
         }
+}
+
+TEST_CASE("photometry: smoke that scatters nothing has no phase functions, and sends no light")
+{
+    physics::Medium medium = sky::test::layer(1, 0, 0, sky::test::isotropicPhase);
+    medium.scatteringAngles.clear(); // as a model of it is read
+    medium.species[0].phaseFunction.clear();
+    const physics::Profile profile(medium);
+    const physics::Optics optics = physics::makeOptics(medium, 4, true);
+    REQUIRE(optics.scatterers.empty());
+    const physics::SunTable sun(profile, optics, medium.sunAngularRadius);
+    const showmysky::FastGather gather(medium, optics, sun, nullptr);
+    const physics::SkyEvaluator evaluator(medium, profile, optics, sun);
+    physics::RayTracer tracer(profile, optics);
+    showmysky::FastScratch scratch;
+    for (const double mu : {-1., 0.001, 1.}) {
+        double fast = -1, precise = -1;
+        gather.radiance(scratch, 500, mu, 0.5, 0.5 * mu, {true, true, true}, &fast);
+        evaluator.radiance(tracer, nullptr, 500, mu, 0.5, 0.5 * mu, {}, &precise);
+        CHECK(fast == 0);
+        CHECK(precise == 0);
+    }
 }
