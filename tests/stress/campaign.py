@@ -36,7 +36,7 @@ ENOUGH = 8 # samples that say something
 # Largest rms error against the reference, by phase functions (gentle, or with peaks sharper than the harmonics) and by the light of a sample,
 # of that of the brightest. Less than the last is dark, and nobody's error.
 LIGHT = (("bright", 1e-2), ("faint", 1e-6))
-BOUNDS = {("gentle", "bright"): 0.05, ("gentle", "faint"): 0.2, ("sharp", "bright"): 0.15, ("sharp", "faint"): 1.0}
+BOUNDS = {("gentle", "bright"): 0.05, ("gentle", "faint"): 0.2, ("sharp", "bright"): 0.15, ("sharp", "faint"): 0.3}
 
 
 def run(command, seconds):
