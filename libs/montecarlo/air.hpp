@@ -49,7 +49,8 @@ public:
     double groundAlbedo() const { return groundAlbedo_; }
     double sunAngularRadius() const { return sunAngularRadius_; }
 
-    /// Part of the extinction in a shell that is scattering, with the integrals of phase functions in it. It guides where events are sampled.
+    /// Part of the extinction in a shell that is scattering, with the integrals of phase functions in it. Events are sampled by it: more than
+    /// zero wherever anything in the shell scatters.
     double scatteredShare(int shell) const { return scatteredShare_[static_cast<std::size_t>(shell)]; }
 
     /// Fills `local` for an altitude, straight from the tables.

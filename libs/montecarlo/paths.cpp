@@ -94,7 +94,7 @@ void PathTracer::prepare(const Place& place, Vec direction, const Ray& ray, cons
         // Sunlight leaves the ground as mu / pi, the air as about 1 / (4 pi).
         add(transmittance * groundAlbedo, lightAt(0, leg.length, 4 * std::max(0.0, (upSun + leg.length * alongSun) / radius)));
     }
-    choice.possible = plain > 0;
+    choice.possible = plain > 1e-300; // whose inverse is a number
     choice.plain = plain;
     if (!choice.possible)
         return;
@@ -189,7 +189,8 @@ Vec PathTracer::nextDirection(const Place& place, Vec direction, int order, doub
     const Vec sun = scene_.sun.centre();
     const Glow::View view = glow_->viewFrom(place, sun);
     const double forward = 4 * pi * air_.scatteredAt(local_, 0) / local_.bright;
-    const double aimed = forward > peaked ? aimedShare : 0, guided = view.map ? glowShare(forward, order) * trust(weight) : 0;
+    const double aimed = forward > peaked ? aimedShare : 0,
+                 guided = view.map ? glowShare(forward, order) * trust(weight * local_.bright / local_.extinction) : 0;
     // What is left of u1 after the choice is as even as it was.
     Vec next;
     if (u1 < guided) {

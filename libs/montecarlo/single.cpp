@@ -22,9 +22,10 @@ double crowdingAtEnds(double opticalDepth) { return std::max(1., std::log(optica
 /// Optical depth towards the Sun's centre, or towards the horizon where that hides it.
 double depthTowardsSun(const Profile& profile, const Place& place, Vec sun)
 {
-    const double radius = profile.planetRadius(), square = radialSquare(radius, place.altitude);
-    const double mu = std::max(dot(place.up, sun), -std::sqrt(square) / (radius + place.altitude));
-    return profile.opticalDepthToSpace(rayFrom(radius, {place.altitude, {0, 0, 1}}, {std::sqrt(std::max(0., 1 - mu * mu)), 0, mu}));
+    const double radius = profile.planetRadius(), altitude = std::clamp(place.altitude, 0., profile.topOfAtmosphere());
+    const double horizon = -(1 - 1e-12) * std::sqrt(radialSquare(radius, altitude)) / (radius + altitude); // a hair above it
+    const double mu = std::max(horizon, dot(place.up, sun));
+    return profile.opticalDepthToSpace(rayFrom(radius, {altitude, {0, 0, 1}}, {std::sqrt(std::max(0., 1 - mu * mu)), 0, mu}));
 }
 
 /// Place 0..1 in a segment after a share x of its steps.
