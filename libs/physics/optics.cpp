@@ -24,7 +24,7 @@ constexpr double mostAtEnd = 0.1;
 constexpr int sharpDegree = 8;
 constexpr double sharpMoment = 0.2;
 /// The same of a peak backward (g = -0.75). That is never truncated: what is cut of it at a low degree is more, and radiances below zero, which are
-/// cut too, make light from nothing: 8 % in air 3 deep of g = -0.8 that absorbs nothing, over white ground.
+/// cut too, make light from nothing: 10 % in air 3 deep of g = -0.8 that absorbs nothing, over white ground.
 constexpr double sharpBackward = 0.1;
 
 /// Factor of the Legendre moment l, where a sharp series is let fade to its end. With a power of 1 it is a Gaussian, which has no ripples at
@@ -111,7 +111,7 @@ Optics makeOptics(const Medium& medium, const int degree, const bool truncate)
                 if (truncate && matters) {
                     if (static_cast<int>(moments.size()) <= longest)
                         moments = phaseMoments(medium, species, w, longest);
-                    f = peakShare(moments, degree);
+                    f = peakAt(moments, degree) < 0 ? 0 : peakShare(moments, degree);
                 }
                 if (truncate && moments[sharpDegree] > (moments[sharpDegree - 1] > 0 ? sharpMoment : sharpBackward))
                     blurred = leftOf(peakAt(moments, degree), f);

@@ -116,7 +116,7 @@ TEST_CASE("sharp peaks: one backward fades as its mirror image would forward")
 {
     for (const double opticalDepth : {1e-4, 10.})
         for (const double g : {0.8, 0.9, 0.99})
-            for (const int degree : {8, 14, 20}) {
+            for (const int degree : {8, 9, 14, 20}) {
                 CAPTURE(opticalDepth, g, degree);
                 const auto back = layer(opticalDepth, 1, 0, [&](double t) { return henyeyGreenstein(-g, t); });
                 const Optics optics = makeOptics(back, degree, true);
