@@ -158,9 +158,9 @@ void printFront(const std::string& name, const World& world, const Point& point,
             sums[3].add(error, row.noise / row.radiance);
     }
     const auto& s = point.settings;
-    std::printf("%s,\"%s\",%d,%d,%d,%d,%d,%d,%d,%d,%d,%.4f,%.4f", name.c_str(), point.label.c_str(), field.levels, s.suns, s.degree,
-                s.groundDirections, s.limbDirections, s.skyDirections, s.azimuths, s.directNodes, s.nodes, point.seconds.wall,
-                point.seconds.processor);
+    std::printf("%s,\"%s\",%d,%d,%d,%d,%d,%d,%d,%d,%d,%.4f,%.4f", name.c_str(), point.label.c_str(), field.levels,
+                field.moments.grid.sunCount(), s.degree, s.groundDirections, s.limbDirections, s.skyDirections, s.azimuths, s.directNodes,
+                s.nodes, point.seconds.wall, point.seconds.processor);
     for (const auto& sum : sums)
         std::printf(",%.6f,%.6f", sum.rms(), sum.uncertainty());
     std::printf("\n");

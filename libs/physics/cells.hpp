@@ -108,8 +108,8 @@ inline NodeShares weighedAsSeen(std::vector<NodeShares>& cells)
     constexpr double unseen = 1e-20; // share of the light that an even ray would send from there
     constexpr double empty = 0.1;    // what air counts that scatters nothing: the shadow may begin in it,
     constexpr double hidden = 46;    // but not behind such an optical depth
-    constexpr double far = 12;       // optical depth behind which bending counts half, and so do edges to sunlight,
-    constexpr double skin = 1;       // and to the field
+    constexpr double far = 12;       // optical depth behind which bending counts half, and edges that sunlight meets
+    constexpr double skin = 1;       // the same of edges for the field
     NodeShares whole, seen;
     for (const NodeShares& cell : cells)
         whole += cell;

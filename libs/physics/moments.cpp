@@ -27,7 +27,7 @@ MomentGrid::MomentGrid(const Profile& profile, const std::vector<double>& larges
     // more of them that elsewhere they stay as long.
     const double dip = dipOfAir(profile, largestExtinction), share = std::min(1., (dip + 2 * sunRadius) / usualSunset);
     const double scale = std::asinh(std::sinh(leastSunScale) / share);
-    // Where the air above a millionth of the column ends, three horizon dips below the horizontal is night everywhere.
+    // Where the air above a hundred-thousandth of the column ends, three horizon dips below the horizontal is night everywhere.
     const double lowest = std::max(-pi / 2, -3.2 * dip - std::max(usualNight * share, 2 * sunRadius));
     const double night = std::asinh(-lowest / (pi / 2) * std::sinh(scale));
     const auto steps = std::lround((sunCount - 1) * (scale + night) / (leastSunScale + night));

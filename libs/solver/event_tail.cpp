@@ -108,7 +108,7 @@ void EventTail::add(const Sums& fresh, const LayeredLight& layers, const double 
                 const double mean = light_.moments[at(a, 0)];
                 double& irradiance = light_.irradiance[point(a) * wavelengths_ + w];
                 if (a == 0)
-                    irradiance = std::max(irradiance + trust * (values.back() - fresh.irradiance[point(0) * wavelengths_ + w]),
+                    irradiance = std::max(irradiance + part * trust * (values.back() - fresh.irradiance[point(0) * wavelengths_ + w]),
                                           leastLeft * irradiance);
                 else if (swept > 0)
                     irradiance *= mean / swept;

@@ -100,7 +100,7 @@ std::string notEnded(const RadiationField& field)
 {
     std::ostringstream text;
     text << "Light scattered any number of times had not ended after " << field.eventCount << " events: as the last ones changed it, "
-         << std::setprecision(2) << 100 * field.remainder << " % may be missing.";
+         << std::fixed << std::setprecision(field.remainder < 0.1 ? 1 : 0) << 100 * field.remainder << " % may be missing.";
     return text.str();
 }
 
