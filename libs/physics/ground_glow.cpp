@@ -144,12 +144,7 @@ void GlowMoments::interpolate(const double altitude, double* const result) const
 
 MomentGrid glowGrid(const Profile& profile, const Optics& optics, const GlowSettings& settings)
 {
-    std::vector<double> largest;
-    for (int s = 0; s < optics.species; ++s) {
-        const auto begin = optics.extinction.begin() + s * optics.wavelengths;
-        largest.push_back(*std::max_element(begin, begin + optics.wavelengths));
-    }
-    return MomentGrid(profile.planet(), fieldLevels(profile, largest, settings.altitudes), -1, 2);
+    return MomentGrid(profile.planet(), fieldLevels(profile, largestExtinctions(optics), settings.altitudes), -1, 2);
 }
 
 Profile glowProfile(const Medium& medium)
