@@ -62,7 +62,7 @@ LayeredLight::LayeredLight(std::vector<double> shape, const int wavelengths, con
 
 double LayeredLight::bytes(const int levels, const int wavelengths, const int degree)
 {
-    const double rows = double(levels) * (std::min(degree, lasting) + 1) + 1;
+    const double rows = valueCount(levels, std::min(degree, lasting));
     return wavelengths * rows * rows * sizeof(double);
 }
 

@@ -34,9 +34,10 @@ public:
     static double bytes(int levels, int wavelengths, int degree);
 
     int wavelengths() const { return wavelengths_; }
-    int valueCount() const { return levels_ * (degree_ + 1) + 1; }
+    int valueCount() const { return valueCount(levels_, degree_); }
 
 private:
+    static int valueCount(int levels, int degree) { return levels * (degree + 1) + 1; }
     std::array<double, 4> weightsAt(const ScatteredRays::FoldNode& node, int wavelength) const;
 
     std::vector<double> shape_; // [level][wavelength]
