@@ -107,14 +107,15 @@ Optics makeOptics(const Medium& medium, const int degree, const bool truncate)
                 if (w == 0 || !species.achromatic || moments.empty())
                     moments = phaseMoments(medium, species, w, std::max(degree + 1, sharpDegree));
                 const bool matters = std::clamp(moments[degree + 1], 0., 0.999) * sigmaScattering * particles > truncationMatters;
+                const double peak = peakAt(moments, degree);
                 const int longest = truncatedReach * (degree + 1);
-                if (truncate && matters) {
+                if (truncate && matters && peak >= 0) {
                     if (static_cast<int>(moments.size()) <= longest)
                         moments = phaseMoments(medium, species, w, longest);
-                    f = peakAt(moments, degree) < 0 ? 0 : peakShare(moments, degree);
+                    f = peakShare(moments, degree);
                 }
                 if (truncate && moments[sharpDegree] > (moments[sharpDegree - 1] > 0 ? sharpMoment : sharpBackward))
-                    blurred = leftOf(peakAt(moments, degree), f);
+                    blurred = leftOf(peak, f);
             }
             optics.truncation[s * wavelengths + w] = f;
             optics.blurred[s * wavelengths + w] = blurred;
