@@ -19,6 +19,16 @@ Options only(std::set<Part> parts)
     return options;
 }
 
+/// Light of each order and up to each, as exactly as files can hold it.
+Options withOrders()
+{
+    Options options = only({Part::Multiple, Part::Irradiance});
+    options.texturePrecisionBits = 24;
+    options.radiance = true;
+    options.saveIrradianceOrders = options.saveDeltaScattering = options.saveAccumulatedScattering = true;
+    return options;
+}
+
 } // namespace
 
 TEST_CASE("options: a model holds the parts that were asked for, and says what it leaves out", "[gl]")
@@ -149,11 +159,8 @@ TEST_CASE("options: intermediate tables are saved on request, and orders add up"
     auto context = gl::testing::context();
     if (!context)
         return;
-    Options options = only({Part::Multiple, Part::Irradiance});
-    options.texturePrecisionBits = 24;
-    options.radiance = true;
-    options.saveIrradianceOrders = options.saveScatteringDensity = options.saveScatteringDensity2FromGround = true;
-    options.saveDeltaScattering = options.saveAccumulatedScattering = true;
+    Options options = withOrders();
+    options.saveScatteringDensity = options.saveScatteringDensity2FromGround = true;
     const Run run(*context, SceneText().parse(), options);
     checkValues(run.model);
     CHECK(tableNames(run.model) ==
@@ -189,10 +196,7 @@ TEST_CASE("options: with all orders the last of the intermediate tables has all 
     auto context = gl::testing::context();
     if (!context)
         return;
-    Options options = only({Part::Multiple, Part::Irradiance});
-    options.texturePrecisionBits = 24;
-    options.radiance = true;
-    options.saveIrradianceOrders = options.saveDeltaScattering = options.saveAccumulatedScattering = true;
+    const Options options = withOrders();
     SceneText scene;
     scene.orders = "all";
     scene.suns = "8";
