@@ -99,6 +99,29 @@ TEST_CASE("direct sunlight: the table against the mean over the disc, through su
     }
 }
 
+TEST_CASE("direct sunlight: straight lines of the table are right in the mean, so that they darken no sky")
+{
+    const auto medium = sky::test::sampleEarth(sky::test::Aerosol::Yes);
+    const Profile profile(medium);
+    const Optics optics = makeOptics(medium, 4, true);
+    const SunTable usual(profile, optics, medium.sunAngularRadius),
+        fine(profile, optics, medium.sunAngularRadius, 8 * SunTable::usualAltitudes, 8 * SunTable::usualElevations);
+    for (const int w : {0, 2}) {
+        std::vector<double> some(optics.wavelengths), exact(optics.wavelengths);
+        double error = 0, light = 0;
+        for (double h = 50; h < 12e3; h *= 1.37)
+            for (double above = 0.003; above < 0.2; above *= 1.029) {
+                const double mu = std::sin(horizonElevation(profile.planet(), h) + above);
+                usual.transmittance(h, mu, some.data());
+                fine.transmittance(h, mu, exact.data());
+                error += some[w] - exact[w];
+                light += exact[w];
+            }
+        INFO("wavelength " << w << ": " << 100 * error / light << " %");
+        CHECK(std::abs(error) < 2e-4 * light); // 6e-4 and 5e-4 by lines through the optical depths themselves
+    }
+}
+
 TEST_CASE("direct sunlight: in haze, between the levels of the table")
 {
     const Air air(sky::test::haze(1.25));
