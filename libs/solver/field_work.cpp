@@ -22,7 +22,8 @@ int eventsOf(const physics::Medium& medium)
     case Air::Clear:
     case Air::Dusty: return 5;
     case Air::Dense: return 7;
-    case Air::Hazy: return 6;
+    case Air::Hazy:
+    case Air::Sharp: return 6;
     case Air::Cloudy: return 9;
     }
     return 0;

@@ -16,7 +16,7 @@ namespace {
 ///   bench_front front AIR.atmo TABLE.csv --orders all --presets draft!,normal!,good!,fine!,finer! [--against reference]
 /// for the airs and tables of bench/run: thin, earth, dense, hazy, cloudy. Where the tables can't tell finer points apart, these keep the error of
 /// the coarser one, and where a coarse one errs less by chance it has the error of the finer. What is finer than `fine` was only looked at in the
-/// Earth's air (docs/accuracy.md).
+/// Earth's air (docs/accuracy.md). Of sharp peaks the worse of two airs counts, with particles too thin to be truncated and just thick enough.
 struct Point {
     std::string name;
     double work; ///< processor time of the moments by that of `normal`, about the mean over the kinds of air
@@ -33,32 +33,32 @@ const std::vector<Point>& points()
          0.5,
          {12, 24, 4, 4, 3, 6, 4, 48, 8, true, 5e-3, 4},
          {20, 8, 2},
-         {{Clear, 0.006}, {Dusty, 0.014}, {Dense, 0.0102}, {Hazy, 0.0051}, {Cloudy, 0.013}}},
+         {{Clear, 0.006}, {Dusty, 0.014}, {Dense, 0.0102}, {Hazy, 0.0051}, {Sharp, 0.0116}, {Cloudy, 0.013}}},
         {"normal",
          1,
          {14, 28, 8, 7, 4, 8, 6, 64, 10, true, 2.5e-3, 4},
          {64, 10, 3},
-         {{Clear, 0.0034}, {Dusty, 0.006}, {Dense, 0.0076}, {Hazy, 0.0045}, {Cloudy, 0.0094}}},
+         {{Clear, 0.0034}, {Dusty, 0.006}, {Dense, 0.0076}, {Hazy, 0.0045}, {Sharp, 0.0088}, {Cloudy, 0.0094}}},
         {"good",
          3,
          {18, 36, 12, 8, 5, 10, 10, 96, 14, true, 1e-3, 5},
          {72, 14, 3},
-         {{Clear, 0.0026}, {Dusty, 0.0029}, {Dense, 0.0041}, {Hazy, 0.0032}, {Cloudy, 0.0071}}},
+         {{Clear, 0.0026}, {Dusty, 0.0029}, {Dense, 0.0041}, {Hazy, 0.0032}, {Sharp, 0.0088}, {Cloudy, 0.0071}}},
         {"fine",
          9,
          {24, 48, 12, 8, 6, 12, 12, 160, 20, true, 5e-4, 6},
          {80, 24, 4},
-         {{Clear, 0.0023}, {Dusty, 0.0024}, {Dense, 0.004}, {Hazy, 0.0032}, {Cloudy, 0.0064}}},
+         {{Clear, 0.0023}, {Dusty, 0.0024}, {Dense, 0.004}, {Hazy, 0.0032}, {Sharp, 0.0088}, {Cloudy, 0.0064}}},
         {"finer",
          30,
          {30, 60, 14, 10, 8, 16, 14, 176, 28, true, 2e-4, 8},
          {120, 32, 5},
-         {{Clear, 0.0023}, {Dusty, 0.0012}, {Dense, 0.004}, {Hazy, 0.0032}, {Cloudy, 0.0064}}},
+         {{Clear, 0.0023}, {Dusty, 0.0012}, {Dense, 0.004}, {Hazy, 0.0032}, {Sharp, 0.0088}, {Cloudy, 0.0064}}},
         {"reference",
          110,
          {40, 80, 16, 12, 10, 20, 18, 192, 40, true, 1e-4, 10},
          {160, 48, 6},
-         {{Clear, 0.0023}, {Dusty, 0.001}, {Dense, 0.004}, {Hazy, 0.0032}, {Cloudy, 0.0064}}},
+         {{Clear, 0.0023}, {Dusty, 0.001}, {Dense, 0.004}, {Hazy, 0.0032}, {Sharp, 0.0088}, {Cloudy, 0.0064}}},
     };
     return list;
 }
@@ -90,6 +90,23 @@ double scatteringDepth(const physics::Medium& medium)
     return sum / medium.wavelengthCount();
 }
 
+/// A peak of which so much is left at this degree (g = 0.92) shows beyond all harmonics, wherever such particles do so much of the scattering.
+constexpr int lastDegree = 15;
+constexpr double sharpMoment = 0.3, sharpShare = 0.005;
+bool hasSharpPeaks(const physics::Medium& medium)
+{
+    const double all = scatteringDepth(medium);
+    for (const auto& species : medium.species)
+        if (species.scatters())
+            for (int w = 0; w < medium.wavelengthCount(); ++w) {
+                const double depth =
+                    physics::verticalColumn(medium, species) * species.extinctionCrossSection[w] * species.singleScatteringAlbedo[w];
+                if (depth > sharpShare * all && physics::phaseMoments(medium, species, w, lastDegree)[lastDegree] > sharpMoment)
+                    return true;
+            }
+    return false;
+}
+
 const char* nameOf(const Air air)
 {
     switch (air) {
@@ -97,6 +114,7 @@ const char* nameOf(const Air air)
     case Air::Dusty: return "air with few particles";
     case Air::Dense: return "dense air";
     case Air::Hazy: return "haze";
+    case Air::Sharp: return "air with sharp peaks";
     case Air::Cloudy: return "clouds";
     }
     return "";
@@ -203,6 +221,8 @@ Air airOf(const physics::Medium& medium)
 {
     const bool dense = scatteringDepth(medium) > thick;
     const int degree = pointNamed("normal").moments.degree;
+    if (!dense && hasSharpPeaks(medium))
+        return Air::Sharp;
     if (truncatesPeaks(medium, degree))
         return dense ? Air::Cloudy : Air::Hazy;
     return dense ? Air::Dense : neededDegree(medium, degree, 0) > 2 ? Air::Dusty : Air::Clear;

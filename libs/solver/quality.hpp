@@ -30,6 +30,7 @@ enum class Air {
     Dusty,  ///< sharper ones, too thin for their peaks to be truncated
     Dense,  ///< no peak truncated, and an optical depth of scattering above 1.2
     Hazy,   ///< truncated peaks in an optical depth of scattering up to 1.2
+    Sharp,  ///< peaks there, truncated or not, of which most is beyond all harmonics
     Cloudy, ///< and above
 };
 Air airOf(const physics::Medium& medium);

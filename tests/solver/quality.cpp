@@ -8,7 +8,7 @@
 using namespace sky;
 using namespace sky::solver;
 using namespace sky::solver::test;
-using sky::test::Aerosol, sky::test::cloud, sky::test::molecules, sky::test::sampleEarth;
+using sky::test::Aerosol, sky::test::cloud, sky::test::henyeyGreenstein, sky::test::molecules, sky::test::sampleEarth;
 
 namespace {
 
@@ -21,6 +21,16 @@ physics::Medium hazyEarth(const double factor)
     return medium;
 }
 
+/// The Earth's air with particles whose peak is beyond all harmonics, so many times as many as its aerosols.
+physics::Medium sharpPeaks(const double factor)
+{
+    physics::Medium medium = hazyEarth(factor);
+    for (std::size_t k = 0; k < medium.scatteringAngles.size(); ++k)
+        for (int w = 0; w < medium.wavelengthCount(); ++w)
+            medium.species[1].phaseFunction[k * medium.wavelengthCount() + w] = henyeyGreenstein(0.97, medium.scatteringAngles[k]);
+    return medium;
+}
+
 physics::Medium denseAir()
 {
     physics::Medium medium = molecules(6371e3, 60e3, 8e3); // of optical depth 0.25
@@ -30,7 +40,7 @@ physics::Medium denseAir()
 
 std::vector<physics::Medium> oneOfEachKind()
 {
-    return {molecules(6371e3, 60e3, 8e3), sampleEarth(Aerosol::Yes), denseAir(), hazyEarth(100), cloud(10)};
+    return {molecules(6371e3, 60e3, 8e3), sampleEarth(Aerosol::Yes), denseAir(), hazyEarth(100), sharpPeaks(1), cloud(10)};
 }
 
 std::size_t rank(const std::string& quality)
@@ -50,6 +60,10 @@ TEST_CASE("quality: the kind of air follows from optical depth and peaks")
     CHECK(airOf(hazyEarth(100)) == Air::Hazy);
     CHECK(airOf(cloud(0.5)) == Air::Hazy);
     CHECK(airOf(cloud(10)) == Air::Cloudy);
+    for (const double factor : {1., 1.4, 10.}) // truncated or not
+        CHECK(airOf(sharpPeaks(factor)) == Air::Sharp);
+    CHECK(airOf(sharpPeaks(0.01)) == Air::Dusty); // too few to be seen
+    CHECK(airOf(sharpPeaks(1000)) == Air::Cloudy);
     auto smoke = cloud(10); // it absorbs: no light is scattered many times
     smoke.species[1].singleScatteringAlbedo = {0};
     CHECK(airOf(smoke) == Air::Clear);
