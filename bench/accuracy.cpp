@@ -28,7 +28,7 @@ int main(int argc, char** argv)
     try {
         const auto file = model::Model::open(directory);
         const auto sky = model::openSky(file, source == "moments" ? model::SkySource::Moments : model::SkySource::Textures);
-        model::ErrorSummary sums[3];
+        model::ErrorSummary sums[4]; // by regime; all seen from high up
         const auto scale = cli::sampleScale(model::readMedium(file));
         for (const auto& row : bench::readReference(reference)) {
             const int w = bench::wavelengthIndex(row, file.manifest().wavelengthsNm);
@@ -37,16 +37,18 @@ int main(int argc, char** argv)
             const auto radiance = sky->radiance(row.geometry);
             const double error = (radiance.single[w] + radiance.multiple[w]) / row.radiance - 1, noise = row.noise / row.radiance;
             sums[bench::regimeOf(row, scale)].add(error, noise);
+            if (bench::isHigh(row, scale))
+                sums[3].add(error, noise);
             if (rows)
                 std::printf("altitude %6.0f sun %5.1f view %5.1f azimuth %5.1f wavelength %7.3f error %+8.3f %% noise %6.3f %%\n",
                             row.geometry.altitude, row.geometry.sunZenithAngle / degree, row.geometry.viewZenithAngle / degree,
                             row.geometry.relativeAzimuth / degree, row.wavelengthNm, 100 * error, 100 * noise);
         }
-        std::printf("regime     rows   rms error     +/-       mean error   noise of the judge\n");
-        for (int i = 0; i < 3; ++i)
+        std::printf("regime         rows   rms error     +/-       mean error   noise of the judge\n");
+        for (int i = 0; i < 4; ++i)
             if (const auto& s = sums[i]; s.rows() > 0)
-                std::printf("%-9s %5d   %7.3f %%   %5.3f %%   %+8.3f %%   %7.3f %%\n", bench::regimeNames[i], s.rows(), 100 * s.rms(),
-                            100 * s.uncertainty(), 100 * s.mean(), 100 * s.noise());
+                std::printf("%-13s %5d   %7.3f %%   %5.3f %%   %+8.3f %%   %7.3f %%\n", i < 3 ? bench::regimeNames[i] : "from high up",
+                            s.rows(), 100 * s.rms(), 100 * s.uncertainty(), 100 * s.mean(), 100 * s.noise());
     } catch (const Error& error) {
         std::fprintf(stderr, "bench_accuracy: %s\n", error.what());
         return error.inputMustChange() ? 2 : 1;

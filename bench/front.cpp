@@ -44,6 +44,7 @@ double processorSeconds()
 struct Point {
     std::string label; ///< a preset's name, or what was changed in it
     physics::MomentSettings settings;
+    solver::OrderLimit limit;
     Seconds seconds{};
 };
 
@@ -90,13 +91,16 @@ const std::map<std::string, std::vector<Number>>& numbers()
     return list;
 }
 
-/// One setting changed at a time, a third down and half up.
-std::vector<Point> around(const std::string& preset, const physics::MomentSettings& s)
+/// One setting changed at a time, a third down and half up; and fewer orders, where all are asked for.
+std::vector<Point> around(const std::string& preset, const physics::MomentSettings& s, const solver::OrderLimit& limit)
 {
-    std::vector<Point> points{{preset, s}};
+    std::vector<Point> points{{preset, s, limit}};
+    if (limit.all)
+        for (const int orders : {2, 3, 4, 6, 8})
+            points.push_back({preset + ", " + std::to_string(orders) + " orders", s, {orders, false, 0}});
     for (const char* name : {"altitudes", "suns", "degree", "directions", "nodes", "directNodes"})
         for (const double factor : {2 / 3., 1.5}) {
-            Point point{preset + (factor < 1 ? ", fewer " : ", more ") + name, s};
+            Point point{preset + (factor < 1 ? ", fewer " : ", more ") + name, s, limit};
             for (const Number field : numbers().at(name))
                 point.settings.*field = static_cast<int>(factor * (s.*field) + 0.5);
             points.push_back(point);
@@ -174,16 +178,16 @@ void front(const gl::Api& api, const std::string& name, const World& world, cons
     for (const std::string& preset : presets) {
         const bool alone = preset.back() == '!'; // without its neighbours
         const std::string plain = alone ? preset.substr(0, preset.size() - 1) : preset;
-        const auto more = around(plain, settingsOf(plain, world.medium));
+        const auto more = around(plain, settingsOf(plain, world.medium), world.limit());
         points.insert(points.end(), more.begin(), alone ? more.begin() + 1 : more.end());
     }
     Seconds warmUp;
-    compute(api, world.medium, world.limit(), points.front().settings, warmUp);
+    compute(api, world.medium, points.front().limit, points.front().settings, warmUp);
     for (int i = 1; i < repeats; ++i)
         for (Point& point : points)
-            compute(api, world.medium, world.limit(), point.settings, point.seconds);
+            compute(api, world.medium, point.limit, point.settings, point.seconds);
     for (Point& point : points) {
-        const Field field = compute(api, world.medium, world.limit(), point.settings, point.seconds);
+        const Field field = compute(api, world.medium, point.limit, point.settings, point.seconds);
         printFront(name, world, point, field, rows);
     }
 }
@@ -234,13 +238,12 @@ void cost(const gl::Api& api, const World& world, const int repeats)
         std::string axis;
         double work;
         physics::Medium medium;
-        solver::OrderLimit limit;
         Point point;
     };
     const physics::MomentSettings base = solver::qualityFor("normal", world.medium).moments;
     std::vector<Task> tasks;
     const auto add = [&](const std::string& axis, double work, const physics::Medium& medium, int orders, physics::MomentSettings s) {
-        tasks.push_back({axis, work, medium, {orders, false, 0}, {axis, s}});
+        tasks.push_back({axis, work, medium, {axis, s, {orders, false, 0}}});
     };
     for (const int wavelengths : {4, 8, 16, 32})
         add("wavelengths", wavelengths, withWavelengths(world.medium, wavelengths), 4, base);
@@ -262,10 +265,10 @@ void cost(const gl::Api& api, const World& world, const int repeats)
         add("directions", (s.skyDirections + s.groundDirections + s.limbDirections) * s.azimuths, world.medium, 4, s);
     }
     Seconds warmUp;
-    compute(api, world.medium, tasks.front().limit, base, warmUp);
+    compute(api, world.medium, tasks.front().point.limit, base, warmUp);
     for (int i = 0; i < repeats; ++i)
         for (Task& task : tasks)
-            compute(api, task.medium, task.limit, task.point.settings, task.point.seconds);
+            compute(api, task.medium, task.point.limit, task.point.settings, task.point.seconds);
     for (const Task& task : tasks)
         std::printf("%s,%g,%.4f,%.4f\n", task.axis.c_str(), task.work, task.point.seconds.wall, task.point.seconds.processor);
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Plots front.csv (time against error, by regime) and cost.csv (cost against work) of a directory, as SVG and PNG."""
+"""Plots front.csv and textures.csv (time against error, by regime) and cost.csv (cost against work) of a directory, as SVG and PNG."""
 import csv
 import math
 import sys
@@ -78,6 +78,25 @@ def plot_front(directory):
     save(figure, directory, "front")
 
 
+def plot_textures(directory):
+    rows = read(directory / "textures.csv")
+    figure, axes = plt.subplots(1, 4, figsize=(14, 3.6))
+    for axis, title in zip(axes, REGIMES.values()):
+        points = [(float(row["processor_s"]), float(row[title])) for row in rows]
+        axis.plot(*zip(*pareto(points)), color="tab:blue", linewidth=1, drawstyle="steps-post")
+        for index, (row, (x, y)) in enumerate(zip(rows, points)):
+            known = row["label"] in ("small", "full")
+            axis.plot(x, y, "D" if known else ".", color="black" if known else f"C{index}", label=row["label"])
+        axis.set(xscale="log", yscale="log", title=title, xlabel="processor time, s")
+        axis.margins(0.12)
+        plain_log(axis.xaxis, (1, 3))
+        plain_log(axis.yaxis, (1, 2, 5))
+    axes[0].set_ylabel("rms error of textures, %")
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="lower center", ncol=6, frameon=False)
+    figure.tight_layout(rect=(0, 0.14, 1, 1))
+    save(figure, directory, "textures")
+
+
 def slope(points):
     """Exponent of a power law between the two largest amounts of work: what counts when there is much."""
     (x0, y0), (x1, y1) = points[-2:]
@@ -101,4 +120,5 @@ def plot_cost(directory):
 if __name__ == "__main__":
     out = Path(sys.argv[1])
     plot_front(out)
+    plot_textures(out)
     plot_cost(out)
