@@ -44,10 +44,10 @@ ScatteringTable::ScatteringTable(const Model& model, const std::string& name) : 
     const auto& mapping = table_.axes[1].mapping;
     const auto vDark = mapping.parameters.find("vDark"), scale = mapping.parameters.find("scale");
     if (mapping.id != "sun-from-horizon" || vDark == mapping.parameters.end() || scale == mapping.parameters.end() ||
-        scale->second != physics::sunTableScale || !(vDark->second < 1))
-        throw ModelError(model.directory().string() + ", table \"" + name + "\": expected the mapping \"sun-from-horizon\" with scale " +
-                         std::to_string(physics::sunTableScale) + " on the axis of the Sun.");
-    vDark_ = vDark->second;
+        !(scale->second > 0) || !(vDark->second < 1))
+        throw ModelError(model.directory().string() + ", table \"" + name +
+                         "\": expected the mapping \"sun-from-horizon\" with a scale above 0 and vDark below 1 on the axis of the Sun.");
+    sunAxis_ = {scale->second, vDark->second};
     channels_ = table_.channelCount();
     layers_ = static_cast<int>(table_.axes[0].nodes.size());
     suns_ = static_cast<int>(table_.axes[1].nodes.size());
@@ -71,7 +71,7 @@ std::vector<float> ScatteringTable::slice(const double altitude, const double su
     const std::size_t columns = std::size_t(views_) * azimuths_ * channels_;
     // Nodes are uniform in the distance to the horizon and in the Sun's v: place the point on those measures.
     const physics::Planet planet{model_.manifest().planetRadius, model_.manifest().topOfAtmosphere};
-    const double sun = physics::sunElevationPosition(planet, altitude, vDark_, suns_, sunElevation);
+    const double sun = physics::sunElevationPosition(planet, altitude, sunAxis_, suns_, sunElevation);
     if (sun < 0)
         return std::vector<float>(columns, 0.F);
     std::vector<double> measures;

@@ -2,6 +2,7 @@
 // Radiance from the baked 4D tables of a model, interpolated on the CPU.
 
 #include "model/model.hpp"
+#include "physics/table_axes.hpp"
 #include <map>
 #include <string>
 #include <vector>
@@ -41,7 +42,7 @@ private:
     const Model& model_;
     Table table_;
     int channels_, views_, azimuths_, suns_, layers_;
-    double vDark_;
+    physics::SunTableAxis sunAxis_;
     mutable std::map<int, std::vector<float>> read_;
 };
 

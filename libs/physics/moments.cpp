@@ -25,7 +25,7 @@ MomentGrid::MomentGrid(const Profile& profile, const std::vector<double>& larges
 {
     // Twilight is as wide as the angle over which the Sun goes out: steps about the horizon are in proportion to it, and there are so many
     // more of them that elsewhere they stay as long.
-    const double dip = dipOfAir(profile, largestExtinction), share = std::min(1., (dip + 2 * sunRadius) / usualSunset);
+    const double dip = dipOfAir(profile, largestExtinction), share = sunsetShare(profile, largestExtinction, sunRadius);
     const double scale = std::asinh(std::sinh(leastSunScale) / share);
     // Where the air above a hundred-thousandth of the column ends, three horizon dips below the horizontal is night everywhere.
     const double lowest = std::max(-pi / 2, -3.2 * dip - std::max(usualNight * share, 2 * sunRadius));

@@ -16,7 +16,7 @@ public:
     MomentGrid() = default;
     /// Grid that follows the medium: `altitudeCount` levels and more, see fieldLevels.
     ///   largestExtinction  cross sections, [species], m^2
-    ///   sunCount    on a planet with the Earth's sunset (usualSunset); more where the Sun goes out over a smaller angle
+    ///   sunCount    on a planet with the Earth's sunset (sunsetShare() of 1); more where the Sun goes out over a smaller angle
     ///   sunRadius   of the disc, rad
     MomentGrid(const Profile& profile, const std::vector<double>& largestExtinction, int altitudeCount, int sunCount, double sunRadius = 0);
     /// Grid as it was stored.

@@ -244,4 +244,10 @@ double dipOfAir(const Profile& profile, const std::vector<double>& crossSections
     return -horizonElevation(planet, std::max(profile.shells()[k], 1e-3 * planet.topOfAtmosphere));
 }
 
+double sunsetShare(const Profile& profile, const std::vector<double>& crossSections, const double sunRadius)
+{
+    constexpr double usual = 0.15; // rad
+    return std::min(1., (dipOfAir(profile, crossSections) + 2 * sunRadius) / usual);
+}
+
 } // namespace sky::physics

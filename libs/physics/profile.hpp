@@ -69,8 +69,8 @@ double depthInShell(const Profile& profile, const std::vector<double>& crossSect
 /// is left.
 double dipOfAir(const Profile& profile, const std::vector<double>& crossSections);
 
-/// The angle over which the Sun goes out in the usual air, dip of the horizon and diameter of the disc, rad: the Earth's. Axes over the
-/// Sun's elevation are made for it, and narrower in proportion where it is less.
-constexpr double usualSunset = 0.15;
+/// Of the angle over which the Sun goes out, dip of the horizon and diameter of the disc, the part of the Earth's, up to 1. Axes over the
+/// Sun's elevation are made for 1, and narrower in proportion where it is less.
+double sunsetShare(const Profile& profile, const std::vector<double>& crossSections, double sunRadius);
 
 } // namespace sky::physics

@@ -33,12 +33,6 @@ constexpr double usualScale = 0.03;
 
 double axisLength(double scale, double range) { return std::asinh(range / scale); }
 
-/// In proportion to the angle over which the Sun goes out.
-double scaleFor(const Profile& profile, const Optics& optics, double sunRadius)
-{
-    return usualScale * std::min(1., (dipOfAir(profile, largestExtinctions(optics)) + 2 * sunRadius) / usualSunset);
-}
-
 /// Smallest and largest optical depth of the air between two altitudes, of all wavelengths.
 std::pair<double, double> opticalDepthBetween(const Profile& profile, const Optics& optics, double from, double to)
 {
@@ -157,7 +151,8 @@ void straighten(const std::vector<double>& positions, double* const values, cons
 
 SunTable::SunTable(const Profile& profile, const Optics& optics, const double sunAngularRadius, const int altitudeCount,
                    const int elevations, const base::StopRequest& stop)
-    : planet_(profile.planet()), sunRadius_(sunAngularRadius), scale_(scaleFor(profile, optics, sunAngularRadius)),
+    : planet_(profile.planet()), sunRadius_(sunAngularRadius),
+      scale_(usualScale * sunsetShare(profile, largestExtinctions(optics), sunAngularRadius)),
       elevations_(static_cast<int>(std::lround(elevations * axisLength(scale_, pi / 2) / axisLength(usualScale, pi / 2)))),
       wavelengths_(optics.wavelengths), altitudes_(tableAltitudes(profile, optics, altitudeCount)),
       depth_((altitudes_.size() + 1) * elevations_ * optics.wavelengths)

@@ -16,7 +16,7 @@ class SunTable
 {
 public:
     /// Axis in the elevation x above the lowest Sun that still shows: u = asinh(x / scale) / asinh(range / scale).
-    ///   elevations  on a planet with the Earth's sunset (physics::usualSunset); where the Sun goes out over a smaller angle the scale
+    ///   elevations  on a planet with the Earth's sunset (sunsetShare() of 1); where the Sun goes out over a smaller angle the scale
     ///               is smaller in proportion, and there are so many more elevations that steps elsewhere stay as long
     ///   stop        asked for every Sun of every altitude; throws base::Stopped
     SunTable(const Profile& profile, const Optics& optics, double sunAngularRadius, int altitudes = usualAltitudes,

@@ -48,25 +48,30 @@ ViewPlace viewPlace(const Planet& planet, const double altitude, const int count
     return {ground, t * (count / 2 - 1)};
 }
 
-std::vector<double> sunElevationNodes(const Planet& planet, const double altitude, const double vDark, const int count)
+std::vector<double> sunElevationNodes(const Planet& planet, const double altitude, const SunTableAxis& axis, const int count)
 {
     const double horizon = horizonElevation(planet, altitude), range = pi / 2 - horizon;
     std::vector<double> nodes;
     for (int k = 0; k < count; ++k) {
-        const double v = vDark + (1 - vDark) * k / std::max(1, count - 1);
-        nodes.push_back(std::clamp(horizon + range * std::sinh(sunTableScale * v) / std::sinh(sunTableScale), -pi / 2, pi / 2));
+        const double v = axis.vDark + (1 - axis.vDark) * k / std::max(1, count - 1);
+        nodes.push_back(std::clamp(horizon + range * std::sinh(axis.scale * v) / std::sinh(axis.scale), -pi / 2, pi / 2));
     }
     return nodes;
 }
 
-double sunElevationPosition(const Planet& planet, const double altitude, const double vDark, const int count, const double elevation)
+double sunElevationPosition(const Planet& planet, const double altitude, const SunTableAxis& axis, const int count, const double elevation)
 {
     const double horizon = horizonElevation(planet, altitude), range = pi / 2 - horizon;
-    const double v = std::asinh((elevation - horizon) / range * std::sinh(sunTableScale)) / sunTableScale;
-    return (v - vDark) / (1 - vDark) * (count - 1);
+    const double v = std::asinh((elevation - horizon) / range * std::sinh(axis.scale)) / axis.scale;
+    return (v - axis.vDark) / (1 - axis.vDark) * (count - 1);
 }
 
-double sunTableDarkEnd(const double depth) { return std::asinh(-depth / (pi / 2) * std::sinh(sunTableScale)) / sunTableScale; }
+SunTableAxis sunTableAxis(const double depth, const double sunset)
+{
+    constexpr double usualScale = 4.5;
+    const double scale = std::asinh(std::sinh(usualScale) / sunset);
+    return {scale, std::asinh(-depth / (pi / 2) * std::sinh(scale)) / scale};
+}
 
 std::vector<double> azimuthNodes(const int count)
 {

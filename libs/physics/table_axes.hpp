@@ -29,16 +29,20 @@ ViewPlace viewPlace(const Planet& planet, double altitude, int count, double ele
 
 /// Elevations of the Sun of a table, rad, [count], increasing from the horizon's less `depth` to the zenith, counted from the
 /// geometric horizon of the altitude, because there the direct light goes out:
-///     e - e_horizon = range sinh(a v) / sinh(a),  range = pi/2 - e_horizon,  a = sunTableScale,  v uniform from vDark to 1
+///     e - e_horizon = range sinh(a v) / sinh(a),  range = pi/2 - e_horizon,  a = scale,  v uniform from vDark to 1
 /// Node k is the same share of the way at all altitudes.
-std::vector<double> sunElevationNodes(const Planet& planet, double altitude, double vDark, int count);
-constexpr double sunTableScale = 4.5;
+struct SunTableAxis {
+    double scale;
+    double vDark;
+};
+std::vector<double> sunElevationNodes(const Planet& planet, double altitude, const SunTableAxis& axis, int count);
 
 /// Index 0 .. count-1, with a fraction, of a Sun on that axis; negative below its end, where it is dark.
-double sunElevationPosition(const Planet& planet, double altitude, double vDark, int count, double elevation);
+double sunElevationPosition(const Planet& planet, double altitude, const SunTableAxis& axis, int count, double elevation);
 
-/// vDark of a planet on which no air is lit once the Sun stands `depth` (rad, > 0) below the horizon of the ground.
-double sunTableDarkEnd(double depth);
+/// The axis of a planet on which no air is lit once the Sun stands `depth` (rad, > 0) below the horizon of the ground.
+///   sunset  of the angle over which the Sun goes out, the part of the Earth's: sunsetShare()
+SunTableAxis sunTableAxis(double depth, double sunset = 1);
 
 /// Relative azimuths 0 .. pi, rad, uniform.
 std::vector<double> azimuthNodes(int count);

@@ -15,9 +15,9 @@ namespace sky::solver {
 
 namespace {
 
-model::Axis sunAxis(const BakeJob& job, int count)
+model::Axis axisOfSuns(const BakeJob& job, int count)
 {
-    model::Axis axis{"sunZenithAngle", "1", {}, {"sun-from-horizon", {{"scale", physics::sunTableScale}, {"vDark", job.vDark}}}};
+    model::Axis axis{"sunZenithAngle", "1", {}, {"sun-from-horizon", {{"scale", job.sunAxis.scale}, {"vDark", job.sunAxis.vDark}}}};
     for (int k = 0; k < count; ++k) // the share of the way from the dark to the zenith
         axis.nodes.push_back(k);
     return axis;
@@ -60,7 +60,7 @@ struct Layer {
 SunSamples samplesOf(const gl::Api& api, const BakeJob& job, double altitude)
 {
     std::vector<float> suns, azimuths;
-    for (const double e : physics::sunElevationNodes(job.scene.profile.planet(), altitude, job.vDark, job.size.sunZenithAngle))
+    for (const double e : physics::sunElevationNodes(job.scene.profile.planet(), altitude, job.sunAxis, job.size.sunZenithAngle))
         suns.push_back(static_cast<float>(std::sin(e)));
     for (const double phi : physics::azimuthNodes(job.size.dotViewSun))
         azimuths.push_back(static_cast<float>(std::cos(phi)));
@@ -112,7 +112,7 @@ model::TableSpec BakeJob::spec(const std::string& name, const std::string& quant
     for (int k = 0; k < size.viewZenithAngle; ++k) // the share of the way from nadir to horizon, then from horizon to zenith
         view.nodes.push_back(k);
     result.axes = {{"altitude", "m", altitudes(), {"horizon-distance", {}}},
-                   sunAxis(*this, size.sunZenithAngle),
+                   axisOfSuns(*this, size.sunZenithAngle),
                    view,
                    {"relativeAzimuth", "rad", physics::azimuthNodes(size.dotViewSun), {"uniform", {}}}};
     result.rowAxes = 2;
@@ -309,8 +309,8 @@ void bakeIrradiance(const BakeJob& job, const RadiationField* field, bool perEve
     spec.unit = "W m^-2 nm^-1";
     spec.channels = model::Channels::SpectralDimensionless;
     spec.wavelengthsNm = medium.wavelengthsNm;
-    spec.axes = {{"altitude", "m", altitudes, {"horizon-distance", {}}}, sunAxis(job, size.zenithAngle)};
-    const auto suns = [&](double altitude) { return physics::sunElevationNodes(planet, altitude, job.vDark, size.zenithAngle); };
+    spec.axes = {{"altitude", "m", altitudes, {"horizon-distance", {}}}, axisOfSuns(job, size.zenithAngle)};
+    const auto suns = [&](double altitude) { return physics::sunElevationNodes(planet, altitude, job.sunAxis, size.zenithAngle); };
 
     std::vector<float> direct;
     std::vector<double> light(wavelengths);

@@ -1,6 +1,7 @@
 #pragma once
 #include "atmo/description.hpp"
 #include "model/writer.hpp"
+#include "physics/table_axes.hpp"
 #include "solver/iterate.hpp"
 #include "solver/solve.hpp"
 #include <array>
@@ -24,7 +25,7 @@ struct BakeJob {
     const Options& options;
     const Scene& scene;
     BakeSettings settings;
-    double vDark;                          ///< dark end of the axis of the Sun: physics::sunElevationNodes
+    physics::SunTableAxis sunAxis;
     atmo::SizeScattering size;             ///< texels
     std::vector<double> altitudes() const; ///< of the layers asked for
     /// "order 3": in words; the last of all orders with those that follow it.

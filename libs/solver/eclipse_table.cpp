@@ -120,7 +120,7 @@ public:
             rays.push_back({from, physics::viewMuNodes(planet, from, views)[k], k < views / 2, 0});
         }
         const auto azimuths = physics::azimuthNodes(job_.size.dotViewSun);
-        const auto suns = physics::sunElevationNodes(planet, altitude, job_.vDark, job_.size.sunZenithAngle);
+        const auto suns = physics::sunElevationNodes(planet, altitude, job_.sunAxis, job_.size.sunZenithAngle);
         const auto traced = eclipse::traceViews(*rays_, rays);
         const std::size_t wavelengths = job_.scene.optics.wavelengths, sky = rays.size() * azimuths.size() * wavelengths;
         const auto solved = sunsSolved(job_.size);

@@ -145,7 +145,9 @@ void solve(const atmo::Description& description, const Options& asked, gl::Headl
     const Scene scene{medium, profile, optics, sun, stop};
     const physics::MomentGrid grid(profile, physics::largestExtinctions(optics), quality.moments.altitudes, quality.moments.suns,
                                    medium.sunAngularRadius);
-    const BakeJob job{description, options, scene, quality.bake, physics::sunTableDarkEnd(grid.darkDepth()), description.scatteringSize};
+    const auto sunAxis = physics::sunTableAxis(grid.darkDepth(),
+                                               physics::sunsetShare(profile, physics::largestExtinctions(optics), medium.sunAngularRadius));
+    const BakeJob job{description, options, scene, quality.bake, sunAxis, description.scatteringSize};
     model::describeOptics(manifest, optics, quality.moments.truncatePeaks);
 
     // 3. The radiation field: moments of every event, summed.

@@ -17,7 +17,7 @@ namespace {
 using sky::base::pi;
 constexpr int suns = 5, views = 8, azimuths = 4;
 const physics::Planet planet{6.371e6, 1.2e5}; // smallManifest's
-const double vDark = physics::sunTableDarkEnd(0.4);
+const physics::SunTableAxis sunAxis = physics::sunTableAxis(0.4, 0.5);
 
 Axis indices(const std::string& name, int count, const Mapping& mapping)
 {
@@ -34,7 +34,7 @@ TableSpec scatteringSpec(int layers)
     spec.quantity = "radiance";
     spec.unit = "W m^-2 sr^-1 nm^-1";
     spec.axes = {{"altitude", "m", physics::altitudeNodes(planet, layers), {"horizon-distance", {}}},
-                 indices("sunZenithAngle", suns, {"sun-from-horizon", {{"scale", physics::sunTableScale}, {"vDark", vDark}}}),
+                 indices("sunZenithAngle", suns, {"sun-from-horizon", {{"scale", sunAxis.scale}, {"vDark", sunAxis.vDark}}}),
                  indices("viewZenithAngle", views, {"horizon-halves", {{"scale", physics::horizonAngleScale}}}),
                  {"relativeAzimuth", "rad", physics::azimuthNodes(azimuths), {"uniform", {}}}};
     spec.rowAxes = 2;
@@ -86,7 +86,7 @@ TEST_CASE("scattering table: nodes of all four axes give what was written")
     CHECK(table.azimuths() == azimuths);
     const auto altitudes = physics::altitudeNodes(planet, layers);
     for (const int layer : {0, 10, 5, 4, 0, 7, 9, 1, 2, 3, 10}) { // to and fro: layers are dropped and read again
-        const auto sunNodes = physics::sunElevationNodes(planet, altitudes[layer], vDark, suns);
+        const auto sunNodes = physics::sunElevationNodes(planet, altitudes[layer], sunAxis, suns);
         const auto muNodes = physics::viewMuNodes(planet, altitudes[layer], views);
         const double horizon = physics::horizonElevation(planet, altitudes[layer]);
         for (int sun = 0; sun < suns; ++sun) {
@@ -128,8 +128,8 @@ TEST_CASE("scattering table: what is exponential over the nodes is exact between
         for (const double sunPlace : {0.2, 1.5, suns - 2.1}) // the last interval ends at the zenith: below
             for (const double viewPlace : {0.5, 1.7, 2.9}) {
                 const double h = places[step], horizon = physics::horizonElevation(planet, h), range = pi / 2 - horizon;
-                const double v = vDark + (1 - vDark) * sunPlace / (suns - 1);
-                const double sun = horizon + range * std::sinh(physics::sunTableScale * v) / std::sinh(physics::sunTableScale);
+                const double v = sunAxis.vDark + (1 - sunAxis.vDark) * sunPlace / (suns - 1);
+                const double sun = horizon + range * std::sinh(sunAxis.scale * v) / std::sinh(sunAxis.scale);
                 const double whole = std::asinh(range / physics::horizonAngleScale);
                 const double view = horizon + physics::horizonAngleScale * std::sinh(whole * viewPlace / (views / 2 - 1));
                 CHECK(sampled(table, h, sun, view, 0.3)[0] ==
@@ -148,8 +148,8 @@ TEST_CASE("scattering table: a Sun near the zenith is seen from both sides of it
     const double horizon = physics::horizonElevation(planet, 0), range = pi / 2 - horizon;
     for (const double fromZenith : {0., 0.1, 0.5, 0.8, 1.})
         for (int azimuth = 0; azimuth < azimuths; ++azimuth) {
-            const double v = 1 - (1 - vDark) * fromZenith / (suns - 1), phi = pi * azimuth / (azimuths - 1);
-            const double sun = horizon + range * std::sinh(physics::sunTableScale * v) / std::sinh(physics::sunTableScale);
+            const double v = 1 - (1 - sunAxis.vDark) * fromZenith / (suns - 1), phi = pi * azimuth / (azimuths - 1);
+            const double sun = horizon + range * std::sinh(sunAxis.scale * v) / std::sinh(sunAxis.scale);
             CHECK(sampled(table, 0, sun, 0.5, phi)[0] == Approx(std::exp(0.7 * fromZenith * std::cos(phi))).epsilon(1e-5)); // floats
         }
 }
@@ -193,7 +193,7 @@ TEST_CASE("scattering table: zeros among the nodes give neither NaN nor light fr
                     CHECK(value >= 0);
                     CHECK(value < 2 * std::exp(1.7 * 4) * 1.6);
                 }
-    const auto dark = physics::sunElevationNodes(planet, 0, vDark, suns);
+    const auto dark = physics::sunElevationNodes(planet, 0, sunAxis, suns);
     CHECK(sampled(table, 0, 0.5 * (dark[0] + dark[1]), 0.4, 1)[0] == 0);
 }
 
@@ -207,7 +207,7 @@ TEST_CASE("scattering table: other tables are refused with a sentence")
     const std::vector<Change> changes{
         {"another mapping", [](TableSpec& s) { s.axes[1].mapping.id = "uniform"; }, "sun-from-horizon"},
         {"no parameter", [](TableSpec& s) { s.axes[1].mapping.parameters.erase("vDark"); }, "sun-from-horizon"},
-        {"another scale", [](TableSpec& s) { s.axes[1].mapping.parameters["scale"] = 3; }, "with scale 4.5"},
+        {"no scale", [](TableSpec& s) { s.axes[1].mapping.parameters["scale"] = 0; }, "with a scale above 0"},
         {"nothing but dark", [](TableSpec& s) { s.axes[1].mapping.parameters["vDark"] = 1; }, "sun-from-horizon"},
         {"an odd number of views", [](TableSpec& s) { s.axes[2].nodes.pop_back(); }, "viewZenithAngle (even, 4 or more)"},
         {"one azimuth", [](TableSpec& s) { s.axes[3].nodes.resize(1); }, "relativeAzimuth"},

@@ -68,33 +68,47 @@ TEST_CASE("table axes: a Sun on a node is at that node's index")
 {
     for (const double depth : {0.01, 0.38, 1.})
         for (const Planet& planet : {earth, shallow})
-            for (const double share : {0., 0.01, 1.}) {
-                const double h = share * planet.topOfAtmosphere, vDark = sunTableDarkEnd(depth);
-                const auto suns = sunElevationNodes(planet, h, vDark, 32);
+            for (const auto& [share, sunset] : {std::pair{0., 1.}, {0.01, 0.02}, {1., 0.3}}) {
+                const double h = share * planet.topOfAtmosphere;
+                const SunTableAxis axis = sunTableAxis(depth, sunset);
+                const auto suns = sunElevationNodes(planet, h, axis, 32);
                 REQUIRE(suns.size() == 32);
                 for (int k = 0; k < 32; ++k) {
                     INFO("depth " << depth << " h " << h << " node " << k);
-                    CHECK(sunElevationPosition(planet, h, vDark, 32, suns[k]) == Approx(k).margin(1e-9)); // roundings of asinh and sinh
+                    CHECK(sunElevationPosition(planet, h, axis, 32, suns[k]) == Approx(k).margin(1e-9)); // roundings of asinh and sinh
                 }
                 CHECK(suns.back() == Approx(pi / 2));
                 // The dark end is `depth` below the horizon of the ground, and in proportion to the range above it
                 // elsewhere.
                 const double horizon = horizonElevation(planet, h);
                 CHECK(suns.front() == Approx(horizon - depth * (pi / 2 - horizon) / (pi / 2)));
-                CHECK(sunElevationPosition(planet, h, vDark, 32, suns.front() - 1e-6) < 0);
+                CHECK(sunElevationPosition(planet, h, axis, 32, suns.front() - 1e-6) < 0);
             }
 }
 
 TEST_CASE("table axes: the Sun's horizon is the same share of the way at every altitude")
 {
-    const double vDark = sunTableDarkEnd(0.38), atHorizon = -vDark / (1 - vDark) * 31;
+    const SunTableAxis axis = sunTableAxis(0.38);
+    const double atHorizon = -axis.vDark / (1 - axis.vDark) * 31;
     for (const double h : {0., 10., 1e4, 120e3})
-        CHECK(sunElevationPosition(earth, h, vDark, 32, horizonElevation(earth, h)) == Approx(atHorizon));
+        CHECK(sunElevationPosition(earth, h, axis, 32, horizonElevation(earth, h)) == Approx(atHorizon));
+}
+
+TEST_CASE("table axes: a sunset meets as many Suns of a table on any planet")
+{
+    constexpr double usual = 0.15;
+    for (const double sunset : {1., 0.3, 0.03, 0.003}) {
+        const double angle = sunset * usual;
+        const SunTableAxis axis = sunTableAxis(2 * angle, sunset);
+        INFO("sunset of " << angle);
+        CHECK(sunElevationPosition(earth, 0, axis, 32, 0.5 * angle) - sunElevationPosition(earth, 0, axis, 32, -0.5 * angle) > 7);
+        CHECK(sunElevationNodes(earth, 0, axis, 32)[29] > 0.5); // noon has its share
+    }
 }
 
 TEST_CASE("table axes: on a planet that hides nothing the Sun's axis stops at the nadir and stays in order")
 {
-    const auto suns = sunElevationNodes(swollen, swollen.topOfAtmosphere, sunTableDarkEnd(1.08), 32);
+    const auto suns = sunElevationNodes(swollen, swollen.topOfAtmosphere, sunTableAxis(1.08), 32);
     CHECK(suns.front() == -pi / 2);
     CHECK(std::is_sorted(suns.begin(), suns.end()));
     CHECK(suns.back() == Approx(pi / 2));

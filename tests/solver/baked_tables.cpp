@@ -16,6 +16,12 @@ using namespace sky::solver::test;
 
 namespace {
 
+physics::SunTableAxis sunAxisOf(const model::TableSpec& table)
+{
+    const auto& parameters = table.axes[1].mapping.parameters;
+    return {parameters.at("scale"), parameters.at("vDark")};
+}
+
 SceneText blueAir()
 {
     SceneText scene;
@@ -77,7 +83,7 @@ struct Deviation {
         const auto& planet = twin.profile.planet();
         const int suns = static_cast<int>(table.axes[1].nodes.size()), views = static_cast<int>(table.axes[2].nodes.size());
         const auto azimuths = table.axes[3].nodes;
-        const double vDark = table.axes[1].mapping.parameters.at("vDark");
+        const auto sunAxis = sunAxisOf(table);
         const auto air = run.model.readAll("single-scattering/air"), dust = run.model.readAll("single-scattering/dust");
         const auto texels = run.model.readAll("multiple-scattering");
         const double floor = floorShare * double(*std::max_element(texels.begin(), texels.end()));
@@ -86,7 +92,7 @@ struct Deviation {
         std::vector<double> one(wavelengths), more(wavelengths), phase(wavelengths);
         for (const double h : table.axes[0].nodes) {
             const auto mus = physics::viewMuNodes(planet, h, views);
-            for (const double e : physics::sunElevationNodes(planet, h, vDark, suns))
+            for (const double e : physics::sunElevationNodes(planet, h, sunAxis, suns))
                 for (int view = 0; view < views; ++view) {
                     const auto direct = twin.tracer.trace(h, mus[view], singleNodes, view < views / 2);
                     const auto scattered = twin.tracer.trace(h, mus[view], multipleNodes, view < views / 2, physics::NodesFor::Field);
@@ -181,7 +187,7 @@ TEST_CASE("baked tables: read at a node they give the node", "[gl]")
     const float brightest = *std::max_element(values.begin(), values.end());
     for (int layer = 0; layer < 3; ++layer) {
         const double h = spec.axes[0].nodes[layer];
-        const auto suns = physics::sunElevationNodes(planet, h, spec.axes[1].mapping.parameters.at("vDark"), 5);
+        const auto suns = physics::sunElevationNodes(planet, h, sunAxisOf(spec), 5);
         for (int sun = 1; sun < 5; ++sun) {
             const auto slice = table.slice(h, suns[sun]);
             for (std::size_t c = 0; c < columns; ++c)
@@ -271,7 +277,7 @@ TEST_CASE("baked tables: types of phase functions differ in how single scatterin
     CHECK(brightest > 0);
     std::size_t texel = 0;
     for (const double h : spec.axes[0].nodes)
-        for (const double e : physics::sunElevationNodes(planet, h, spec.axes[1].mapping.parameters.at("vDark"), 4))
+        for (const double e : physics::sunElevationNodes(planet, h, sunAxisOf(spec), 4))
             for (const double mu : physics::viewMuNodes(planet, h, 4))
                 for (const double phi : spec.axes[3].nodes) {
                     const double nu = mu * std::sin(e) + std::sqrt(1 - mu * mu) * std::cos(e) * std::cos(phi);
