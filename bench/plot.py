@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Plots front.csv and textures.csv (time against error, by regime) and cost.csv (cost against work) of a directory, as SVG and PNG."""
+"""Plots front.csv and textures.csv (time against error, by regime; orders by themselves) and cost.csv (cost against work) of a directory, as SVG and PNG."""
 import csv
 import math
 import sys
@@ -46,7 +46,7 @@ def plain_log(axis, steps):
 
 
 def plot_front(directory):
-    rows = read(directory / "front.csv")
+    rows = [row for row in read(directory / "front.csv") if not row["label"].endswith(" orders")]
     names = list(dict.fromkeys(row["name"] for row in rows))
     figure, axes = plt.subplots(len(names), 4, figsize=(14, 2.8 * len(names)), squeeze=False, sharex=True, sharey="row")
     for line, name in zip(axes, names):
@@ -76,6 +76,27 @@ def plot_front(directory):
         axis.set_xlabel("processor time of the moments, s")
     figure.tight_layout()
     save(figure, directory, "front")
+
+
+def plot_orders(directory):
+    """Airs whose judge has all orders: what fewer of them lack, and what they save."""
+    rows = read(directory / "front.csv")
+    figure, axes = plt.subplots(1, 4, figsize=(14, 3.6), sharey=True)
+    for axis, (regime, title) in zip(axes, REGIMES.items()):
+        for name in dict.fromkeys(row["name"] for row in rows if row["label"].startswith("normal, ") and row["label"].endswith(" orders")):
+            mine = [row for row in rows if row["name"] == name and (row["label"] == "normal" or row["label"].startswith("normal, ") and row["label"].endswith(" orders"))]
+            mine.sort(key=lambda row: row["label"] == "normal") # all orders last
+            points = [(float(row["processor_s"]), max(0.02, 100 * float(row[regime]))) for row in mine]
+            axis.plot(*zip(*points), marker="o", markersize=3, linewidth=1, label=name)
+            for (x, y), row in zip(points, mine):
+                axis.annotate(row["label"].split()[1] if " " in row["label"] else "all", (x, y), textcoords="offset points", xytext=(3, 3), fontsize=7)
+        axis.set(xscale="log", yscale="log", title=title, xlabel="processor time of the moments, s")
+        plain_log(axis.xaxis, (1, 3))
+        plain_log(axis.yaxis, (1,))
+    axes[0].set_ylabel("rms error, %")
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="lower center", ncol=6, frameon=False)
+    figure.tight_layout(rect=(0, 0.08, 1, 1))
+    save(figure, directory, "orders")
 
 
 def plot_textures(directory):
@@ -120,5 +141,6 @@ def plot_cost(directory):
 if __name__ == "__main__":
     out = Path(sys.argv[1])
     plot_front(out)
+    plot_orders(out)
     plot_textures(out)
     plot_cost(out)

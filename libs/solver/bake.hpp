@@ -25,7 +25,7 @@ struct BakeJob {
     const Options& options;
     const Scene& scene;
     BakeSettings settings;
-    physics::SunTableAxis sunAxis;
+    physics::SunTableAxis sunAxis;         ///< of all tables over the Sun
     atmo::SizeScattering size;             ///< texels
     std::vector<double> altitudes() const; ///< of the layers asked for
     /// "order 3": in words; the last of all orders with those that follow it.
