@@ -45,8 +45,12 @@ def plain_log(axis, steps):
     axis.grid(True, alpha=0.3)
 
 
+def has_fewer_orders(row):
+    return row["label"].endswith(" orders")
+
+
 def plot_front(directory):
-    rows = [row for row in read(directory / "front.csv") if not row["label"].endswith(" orders")]
+    rows = [row for row in read(directory / "front.csv") if not has_fewer_orders(row)]
     names = list(dict.fromkeys(row["name"] for row in rows))
     figure, axes = plt.subplots(len(names), 4, figsize=(14, 2.8 * len(names)), squeeze=False, sharex=True, sharey="row")
     for line, name in zip(axes, names):
@@ -80,16 +84,16 @@ def plot_front(directory):
 
 def plot_orders(directory):
     """Airs whose judge has all orders: what fewer of them lack, and what they save."""
-    rows = read(directory / "front.csv")
+    fewer = [row for row in read(directory / "front.csv") if has_fewer_orders(row) and row["label"].startswith("normal")]
+    whole = [row for row in read(directory / "front.csv") if row["label"] == "normal"]
     figure, axes = plt.subplots(1, 4, figsize=(14, 3.6), sharey=True)
     for axis, (regime, title) in zip(axes, REGIMES.items()):
-        for name in dict.fromkeys(row["name"] for row in rows if row["label"].startswith("normal, ") and row["label"].endswith(" orders")):
-            mine = [row for row in rows if row["name"] == name and (row["label"] == "normal" or row["label"].startswith("normal, ") and row["label"].endswith(" orders"))]
-            mine.sort(key=lambda row: row["label"] == "normal") # all orders last
+        for name in dict.fromkeys(row["name"] for row in fewer):
+            mine = [row for row in fewer + whole if row["name"] == name]
             points = [(float(row["processor_s"]), max(0.02, 100 * float(row[regime]))) for row in mine]
             axis.plot(*zip(*points), marker="o", markersize=3, linewidth=1, label=name)
             for (x, y), row in zip(points, mine):
-                axis.annotate(row["label"].split()[1] if " " in row["label"] else "all", (x, y), textcoords="offset points", xytext=(3, 3), fontsize=7)
+                axis.annotate(row["label"].split()[1] if has_fewer_orders(row) else "all", (x, y), textcoords="offset points", xytext=(3, 3), fontsize=7)
         axis.set(xscale="log", yscale="log", title=title, xlabel="processor time of the moments, s")
         plain_log(axis.xaxis, (1, 3))
         plain_log(axis.yaxis, (1,))

@@ -44,9 +44,10 @@ ScatteringTable::ScatteringTable(const Model& model, const std::string& name) : 
     const auto& mapping = table_.axes[1].mapping;
     const auto vDark = mapping.parameters.find("vDark"), scale = mapping.parameters.find("scale");
     if (mapping.id != "sun-from-horizon" || vDark == mapping.parameters.end() || scale == mapping.parameters.end() ||
-        !(scale->second > 0) || !(vDark->second < 1))
-        throw ModelError(model.directory().string() + ", table \"" + name +
-                         "\": expected the mapping \"sun-from-horizon\" with a scale above 0 and vDark below 1 on the axis of the Sun.");
+        !(scale->second > 0 && scale->second < 100) || !(vDark->second < 1))
+        throw ModelError(
+            model.directory().string() + ", table \"" + name +
+            "\": expected the mapping \"sun-from-horizon\" with a scale of 0 to 100 and vDark below 1 on the axis of the Sun.");
     sunAxis_ = {scale->second, vDark->second};
     channels_ = table_.channelCount();
     layers_ = static_cast<int>(table_.axes[0].nodes.size());

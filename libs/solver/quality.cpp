@@ -79,14 +79,20 @@ bool truncatesPeaks(const physics::Medium& medium, const int degree)
     return physics::truncates(physics::makeOptics(medium, degree, true));
 }
 
-/// Vertical optical depth of scattering, the mean over wavelengths.
+/// Vertical optical depth of scattering by a species.
+double scatteringDepth(const physics::Medium& medium, const physics::Species& species, const int wavelength)
+{
+    return physics::verticalColumn(medium, species) * species.extinctionCrossSection[wavelength] *
+           (species.scatters() ? species.singleScatteringAlbedo[wavelength] : 0);
+}
+
+/// By all, the mean over wavelengths.
 double scatteringDepth(const physics::Medium& medium)
 {
     double sum = 0;
     for (const auto& species : medium.species)
-        if (species.scatters())
-            for (int w = 0; w < medium.wavelengthCount(); ++w)
-                sum += physics::verticalColumn(medium, species) * species.extinctionCrossSection[w] * species.singleScatteringAlbedo[w];
+        for (int w = 0; w < medium.wavelengthCount(); ++w)
+            sum += scatteringDepth(medium, species, w);
     return sum / medium.wavelengthCount();
 }
 
@@ -97,13 +103,10 @@ bool hasSharpPeaks(const physics::Medium& medium)
 {
     const double all = scatteringDepth(medium);
     for (const auto& species : medium.species)
-        if (species.scatters())
-            for (int w = 0; w < medium.wavelengthCount(); ++w) {
-                const double depth =
-                    physics::verticalColumn(medium, species) * species.extinctionCrossSection[w] * species.singleScatteringAlbedo[w];
-                if (depth > sharpShare * all && physics::phaseMoments(medium, species, w, lastDegree)[lastDegree] > sharpMoment)
-                    return true;
-            }
+        for (int w = 0; w < medium.wavelengthCount(); ++w)
+            if (scatteringDepth(medium, species, w) > sharpShare * all &&
+                physics::phaseMoments(medium, species, w, lastDegree)[lastDegree] > sharpMoment)
+                return true;
     return false;
 }
 
@@ -138,9 +141,8 @@ int neededDegree(const physics::Medium& medium, int most, double tolerance)
     for (const auto& species : medium.species) {
         if (!species.scatters())
             continue;
-        const double column = physics::verticalColumn(medium, species);
         for (int w = 0; w < medium.wavelengthCount(); ++w) {
-            const double depth = column * species.extinctionCrossSection[w] * species.singleScatteringAlbedo[w];
+            const double depth = scatteringDepth(medium, species, w);
             if (!(depth > 0) || (w > 0 && species.achromatic && tolerance == 0))
                 continue;
             const double weight = tolerance > 0 ? std::min(1., depth) / tolerance : 1 / negligibleMoment;

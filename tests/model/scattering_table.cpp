@@ -207,7 +207,8 @@ TEST_CASE("scattering table: other tables are refused with a sentence")
     const std::vector<Change> changes{
         {"another mapping", [](TableSpec& s) { s.axes[1].mapping.id = "uniform"; }, "sun-from-horizon"},
         {"no parameter", [](TableSpec& s) { s.axes[1].mapping.parameters.erase("vDark"); }, "sun-from-horizon"},
-        {"no scale", [](TableSpec& s) { s.axes[1].mapping.parameters["scale"] = 0; }, "with a scale above 0"},
+        {"no scale", [](TableSpec& s) { s.axes[1].mapping.parameters["scale"] = 0; }, "with a scale of 0 to 100"},
+        {"a scale beyond numbers", [](TableSpec& s) { s.axes[1].mapping.parameters["scale"] = 1e3; }, "with a scale of 0 to 100"},
         {"nothing but dark", [](TableSpec& s) { s.axes[1].mapping.parameters["vDark"] = 1; }, "sun-from-horizon"},
         {"an odd number of views", [](TableSpec& s) { s.axes[2].nodes.pop_back(); }, "viewZenithAngle (even, 4 or more)"},
         {"one azimuth", [](TableSpec& s) { s.axes[3].nodes.resize(1); }, "relativeAzimuth"},
