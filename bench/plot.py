@@ -84,8 +84,9 @@ def plot_front(directory):
 
 def plot_orders(directory):
     """Airs whose judge has all orders: what fewer of them lack, and what they save."""
-    fewer = [row for row in read(directory / "front.csv") if has_fewer_orders(row) and row["label"].startswith("normal")]
-    whole = [row for row in read(directory / "front.csv") if row["label"] == "normal"]
+    rows = read(directory / "front.csv")
+    fewer = [row for row in rows if has_fewer_orders(row) and row["label"].startswith("normal")]
+    whole = [row for row in rows if row["label"] == "normal"]
     figure, axes = plt.subplots(1, 4, figsize=(14, 3.6), sharey=True)
     for axis, (regime, title) in zip(axes, REGIMES.items()):
         for name in dict.fromkeys(row["name"] for row in fewer):

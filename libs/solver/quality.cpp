@@ -79,11 +79,16 @@ bool truncatesPeaks(const physics::Medium& medium, const int degree)
     return physics::truncates(physics::makeOptics(medium, degree, true));
 }
 
-/// Vertical optical depth of scattering by a species.
-double scatteringDepth(const physics::Medium& medium, const physics::Species& species, const int wavelength)
+/// Vertical optical depths of scattering by a species, [wavelength].
+std::vector<double> scatteringDepths(const physics::Medium& medium, const physics::Species& species)
 {
-    return physics::verticalColumn(medium, species) * species.extinctionCrossSection[wavelength] *
-           (species.scatters() ? species.singleScatteringAlbedo[wavelength] : 0);
+    std::vector<double> depths(medium.wavelengthCount(), 0.);
+    if (!species.scatters())
+        return depths;
+    const double column = physics::verticalColumn(medium, species);
+    for (int w = 0; w < medium.wavelengthCount(); ++w)
+        depths[w] = column * species.extinctionCrossSection[w] * species.singleScatteringAlbedo[w];
+    return depths;
 }
 
 /// By all, the mean over wavelengths.
@@ -91,8 +96,8 @@ double scatteringDepth(const physics::Medium& medium)
 {
     double sum = 0;
     for (const auto& species : medium.species)
-        for (int w = 0; w < medium.wavelengthCount(); ++w)
-            sum += scatteringDepth(medium, species, w);
+        for (const double depth : scatteringDepths(medium, species))
+            sum += depth;
     return sum / medium.wavelengthCount();
 }
 
@@ -102,11 +107,12 @@ constexpr double sharpMoment = 0.3, sharpShare = 0.005;
 bool hasSharpPeaks(const physics::Medium& medium)
 {
     const double all = scatteringDepth(medium);
-    for (const auto& species : medium.species)
+    for (const auto& species : medium.species) {
+        const auto depths = scatteringDepths(medium, species);
         for (int w = 0; w < medium.wavelengthCount(); ++w)
-            if (scatteringDepth(medium, species, w) > sharpShare * all &&
-                physics::phaseMoments(medium, species, w, lastDegree)[lastDegree] > sharpMoment)
+            if (depths[w] > sharpShare * all && physics::phaseMoments(medium, species, w, lastDegree)[lastDegree] > sharpMoment)
                 return true;
+    }
     return false;
 }
 
@@ -141,8 +147,9 @@ int neededDegree(const physics::Medium& medium, int most, double tolerance)
     for (const auto& species : medium.species) {
         if (!species.scatters())
             continue;
+        const auto depths = scatteringDepths(medium, species);
         for (int w = 0; w < medium.wavelengthCount(); ++w) {
-            const double depth = scatteringDepth(medium, species, w);
+            const double depth = depths[w];
             if (!(depth > 0) || (w > 0 && species.achromatic && tolerance == 0))
                 continue;
             const double weight = tolerance > 0 ? std::min(1., depth) / tolerance : 1 / negligibleMoment;
