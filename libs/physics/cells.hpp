@@ -163,6 +163,35 @@ private:
     NodeShares per_;
 };
 
+/// Places nodes at equal steps of a measure, from the start of the ray to the end of the last cell that counts. Were the last node at the end of
+/// a ray whose end is hidden, the field there would be taken for that of an opaque layer wherever the gap before it begins in clear air.
+///   bounds     [cells + 1], m, along the ray     shares  [cells], weighed as seen     count  nodes, >= 2
+///   measured   [cells + 1], the measure cumulated: scratch memory
+///   positions  [count], m, not decreasing: what is found
+inline void placeNodes(const std::vector<double>& bounds, const std::vector<NodeShares>& shares, const NodeMeasure& measure,
+                       const int count, std::vector<double>& measured, std::vector<double>& positions)
+{
+    constexpr double uncounted = 1e-6; // share of the whole
+    const int cells = static_cast<int>(bounds.size()) - 1;
+    positions.assign(count, bounds.front());
+    if (cells == 0)
+        return;
+    measured.assign(1, 0);
+    for (int c = 0; c < cells; ++c)
+        measured.push_back(measured.back() + measure.of(shares[c]));
+    int c = 0;
+    for (int k = 1; k < count - 1; ++k) {
+        const double target = measured[cells] * k / (count - 1);
+        while (c + 1 < cells && measured[c + 1] < target)
+            ++c;
+        const double step = measured[c + 1] - measured[c], x = step > 0 ? std::clamp((target - measured[c]) / step, 0., 1.) : 0.5;
+        positions[k] = std::min(bounds[cells], bounds[c] + x * (bounds[c + 1] - bounds[c]));
+    }
+    while (c + 1 < cells && measured[c + 1] < (1 - uncounted) * measured[cells])
+        ++c;
+    positions.back() = measured[cells] > 0 ? bounds[c + 1] : bounds[cells];
+}
+
 /// What of a cell lies between a node and the next.
 struct CellPart {
     int cell, node;
@@ -170,8 +199,8 @@ struct CellPart {
     float offset, length; ///< where the cell begins after the node, and how long it is, in gaps between the two nodes
 };
 
-/// Cuts the cells at the nodes, in order.
-///   bounds  [cells + 1], m, along the ray     nodes  [2 or more], m, not decreasing, from the first bound to the last
+/// Cuts the cells at the nodes, in order. What lies beyond the last node is a part of the last gap, but further away than that is long.
+///   bounds  [cells + 1], m, along the ray     nodes  [2 or more], m, not decreasing, from the first bound on
 inline void cutAtNodes(const std::vector<double>& bounds, const std::vector<double>& nodes, std::vector<CellPart>& parts)
 {
     const int last = static_cast<int>(nodes.size()) - 2;

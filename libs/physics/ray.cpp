@@ -208,7 +208,7 @@ RayNodes RayTracer::trace(const double altitude, const double mu, const int coun
     const double length = bounds_.back();
 
     // What each cell contributes: sum over species of sigma_sca N T (1 - exp(-tau)) / tau, the exact mean over the cell.
-    std::vector<double> tau(wavelengths), seen(cells * wavelengths), measure(cells + 1, 0.);
+    std::vector<double> tau(wavelengths), seen(cells * wavelengths);
     std::vector<NodeShares> shares(cells);
     // A cell's light comes from its centre of density, shifted towards the viewer by attenuation (in lengths of the cell).
     std::vector<double> shift(cells * wavelengths);
@@ -228,18 +228,9 @@ RayNodes RayTracer::trace(const double altitude, const double mu, const int coun
                      halvings_[c], depthAlong};
     }
 
-    const NodeMeasure nodeMeasure(weighedAsSeen(shares), nodesFor);
-    for (int c = 0; c < cells; ++c)
-        measure[c + 1] = measure[c] + nodeMeasure.of(shares[c]);
-    std::vector<double> position(count, 0.);
-    for (int k = 1, c = 0; k < count && cells > 0; ++k) {
-        const double target = measure[cells] * k / (count - 1);
-        while (c + 1 < cells && measure[c + 1] < target)
-            ++c;
-        const double x = measure[c + 1] > measure[c] ? (target - measure[c]) / (measure[c + 1] - measure[c]) : 0.5;
-        position[k] = std::min(length, bounds_[c] + std::clamp(x, 0., 1.) * (bounds_[c + 1] - bounds_[c]));
-    }
-    position[count - 1] = length;
+    std::vector<double> measured, position;
+    const NodeShares whole = weighedAsSeen(shares);
+    placeNodes(bounds_, shares, NodeMeasure(whole, nodesFor), count, measured, position);
 
     const auto nodeAt = [&](double s) {
         const double h = altitudeAlong(p, altitude, mu, s), rNode = p.radius + h;

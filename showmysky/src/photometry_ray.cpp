@@ -254,25 +254,11 @@ void RayFolder::findColumns(FastRay& ray) const
 
 void RayFolder::placeNodes(FastRay& ray, const int nodes, const physics::NodeMeasure& measure, NodeSet& set) const
 {
-    ray.measure.assign(1, 0.);
-    for (int c = 0; c < ray.cells; ++c)
-        ray.measure.push_back(ray.measure.back() + measure.of(ray.shares[c]));
-    const auto& p = profile_.planet();
-    const double length = ray.bounds.back(), whole = ray.measure[ray.cells];
-    ray.position.assign(nodes, 0.);
-    for (int k = 1, c = 0; k < nodes && ray.cells > 0; ++k) {
-        const double target = whole * k / (nodes - 1);
-        while (c + 1 < ray.cells && ray.measure[c + 1] < target)
-            ++c;
-        const double step = ray.measure[c + 1] - ray.measure[c];
-        const double x = step > 0 ? std::clamp((target - ray.measure[c]) / step, 0., 1.) : 0.5;
-        ray.position[k] = std::min(length, ray.bounds[c] + x * (ray.bounds[c + 1] - ray.bounds[c]));
-    }
-    ray.position[nodes - 1] = length;
+    physics::placeNodes(ray.bounds, ray.shares, measure, nodes, ray.measured, ray.position);
     set.altitudes.resize(nodes);
     for (auto* numbers : {&set.sunScales, &set.nuScales, &set.mu})
         numbers->resize(nodes);
-    findNodes(p, ray, set);
+    findNodes(profile_.planet(), ray, set);
     set.weights.resize(static_cast<std::size_t>(nodes) * scatterers_.size() * blocks_, Block{all(0)});
     physics::cutAtNodes(ray.bounds, ray.position, ray.parts);
 }

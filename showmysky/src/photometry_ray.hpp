@@ -48,7 +48,7 @@ struct FastRay {
     std::vector<float> light, depth;                 ///< [cells], scattered there, and optical depth; sums over the wavelengths
     std::vector<CellLight> lit;                      ///< [cells][scatterer][block]
     std::vector<sky::physics::NodeShares> shares;    ///< [cells]
-    std::vector<double> measure, position;
+    std::vector<double> measured, position;
     std::vector<sky::physics::CellPart> parts;
 };
 

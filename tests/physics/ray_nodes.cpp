@@ -49,6 +49,26 @@ TEST_CASE("ray nodes: where light comes from, not in empty air nor behind opaque
     }
 }
 
+TEST_CASE("ray nodes: nothing of what is above an opaque layer, though the last node in clear air is far before it")
+{
+    // Grazing rays that leave the layer at its lower edge, and meet it again, some kilometres on.
+    const auto medium = sky::test::withDensity(sky::test::layer(1, 1, 0, sky::test::isotropicPhase), {0, 100, 100.001, 200, 200.001, 1000},
+                                               {0, 0, 1e3, 1e3, 0, 0});
+    const Profile profile(medium);
+    const Optics optics = makeOptics(medium, 2, false);
+    RayTracer tracer(profile, optics);
+    for (const double mu : {-5e-4, -1e-3, -2e-3, -4e-3})
+        for (const auto nodesFor : {NodesFor::Sunlight, NodesFor::Field}) {
+            INFO("mu " << mu);
+            const RayNodes ray = tracer.trace(100.002, mu, 10, false, nodesFor);
+            double below = 0, above = 0;
+            for (std::size_t k = 0; k < ray.nodes.size(); ++k)
+                (ray.nodes[k].altitude < 150 ? below : above) += ray.weights[k];
+            CHECK(below == Approx(1).epsilon(1e-3)); // all that can be seen
+            CHECK(above < 1e-12);
+        }
+}
+
 TEST_CASE("ray nodes: cut at nodes, a cell's light keeps its amount and its centre")
 {
     for (const double centre : {0.2, 0.45, 0.5, 0.62}) {
