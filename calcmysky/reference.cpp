@@ -139,7 +139,8 @@ private:
         std::vector<montecarlo::Query> queries;
         if (queries_.empty()) {
             for (const Sample& sample : sampleSky(atmosphere.medium, rowsPerCell))
-                queries.push_back(sample.query);
+                if (sample.query.altitude < atmosphere.medium.topOfAtmosphere) // not from space: tables stay those that were published
+                    queries.push_back(sample.query);
             return queries;
         }
         std::ifstream file(queries_);

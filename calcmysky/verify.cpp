@@ -112,9 +112,9 @@ private:
         reporter->finished();
         for (std::size_t i = 0; i < rows.size(); ++i) {
             rows[i].judged = judged[i];
-            if (!(judged[i].total() > darkest))
+            if (isDark(judged[i]))
                 ++v.darkRows;
-            else if (relativeNoise(judged[i]) > unsureNoise)
+            else if (!isSure(judged[i]))
                 ++v.unsureRows;
             else
                 v.rows.push_back(rows[i]);

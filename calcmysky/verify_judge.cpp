@@ -40,6 +40,30 @@ double relativeNoise(const montecarlo::Result& result)
     return std::hypot(result.multipleStderr, result.singleStderr) / result.total();
 }
 
+bool isDark(const montecarlo::Result& result) { return !(result.total() > darkest); }
+
+bool isSure(const montecarlo::Result& result) { return result.paths >= fewestPaths && relativeNoise(result) <= unsureNoise; }
+
+std::size_t neediest(const std::vector<montecarlo::Result>& results, const double relativeError)
+{
+    std::size_t soonest = results.size(), noisiest = results.size();
+    double least = std::numeric_limits<double>::infinity(), most = relativeError;
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        if (isDark(results[i]))
+            continue;
+        const double noise = relativeNoise(results[i]);
+        if (noise > most) {
+            most = noise;
+            noisiest = i;
+        }
+        if (!isSure(results[i]) && noise < least) {
+            least = noise;
+            soonest = i;
+        }
+    }
+    return soonest < results.size() ? soonest : noisiest;
+}
+
 std::vector<montecarlo::Result> judge(const montecarlo::Reference& reference, const std::vector<montecarlo::Query>& queries,
                                       const JudgeSettings& settings, const std::function<void(double)>& progress)
 {
@@ -63,22 +87,16 @@ std::vector<montecarlo::Result> judge(const montecarlo::Reference& reference, co
         progress(settings.seconds > 0 ? std::min(1., watch.seconds() / settings.seconds) : rows);
     }
 
-    // The rest of the time goes to the noisiest row, again and again.
+    // The rest of the time goes to one row after the other, a share at a time.
     for (std::uint64_t round = 1; watch.seconds() + share < settings.seconds; ++round) {
         stopIfAsked();
-        std::size_t noisiest = queries.size();
-        double most = settings.relativeError;
-        for (std::size_t i = 0; i < queries.size(); ++i)
-            if (const double noise = relativeNoise(results[i]); std::isfinite(noise) && noise > most) {
-                most = noise;
-                noisiest = i;
-            }
-        if (noisiest == queries.size())
+        const std::size_t next = neediest(results, settings.relativeError);
+        if (next == queries.size())
             break;
         path.seed = settings.seed + 1000003 * round;
         path.maxSeconds = 2 * share;
         path.relativeError = 0.3 * settings.relativeError;
-        results[noisiest] = merged(results[noisiest], reference.radiance(queries[noisiest], path));
+        results[next] = merged(results[next], reference.radiance(queries[next], path));
         progress(std::min(1., watch.seconds() / settings.seconds));
     }
     return results;

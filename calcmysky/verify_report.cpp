@@ -57,7 +57,7 @@ std::string number(const double value, const int width, const int digits, const 
 
 std::string altitudeText(const double altitude)
 {
-    return altitude < 1000 ? number(altitude, 7, 0) + " m " : number(altitude / 1000, 7, 1) + " km";
+    return altitude < 1000 ? number(altitude, 8, 0) + " m " : number(altitude / 1000, 8, 1) + " km";
 }
 
 std::string percent(const double share, const int width, const bool sign = false) { return number(100 * share, width, 2, sign) + " %"; }
@@ -87,15 +87,18 @@ void printTable(const Verification& v, std::ostream& to)
     to << v.directory << ": " << v.source << " against Monte Carlo, "
        << (v.orders > 0 ? "orders 1 to " + std::to_string(v.orders) : "all orders") << ", " << formatDuration(v.seconds)
        << "\nError of single + multiple scattering, the noise of the judge removed; elevation of the Sun in degrees.\n\n"
-          "Sun                      altitude   rows   rms error     +/-     mean error    noise   of single   worst row\n";
+          "Sun                       altitude   rows   rms error     +/-     mean error    noise   of single   worst row\n";
     for (const Regime regime : allRegimes) {
         const auto& range = v.scale.suns[static_cast<int>(regime)];
         const std::string name = nameOf(regime);
         const std::string sun =
             name + std::string(8 - name.size(), ' ') + number(range.high / degree, 6, 1) + " to" + number(range.low / degree, 6, 1);
-        for (int a = 0; a < static_cast<int>(v.scale.altitudes.size()); ++a)
-            to << sun << altitudeText(v.scale.altitudes[static_cast<std::size_t>(a)]) << "   " << numbersOf(cellOf(v, regime, a)) << "\n";
-        to << sun << "       all   " << numbersOf(cellOf(v, regime, -1)) << "\n";
+        const int fromSpace = static_cast<int>(v.scale.altitudes.size()) - 1;
+        for (int a = 0; a <= fromSpace; ++a) {
+            const std::string altitude = a < fromSpace ? altitudeText(v.scale.altitudes[static_cast<std::size_t>(a)]) : " from space";
+            to << sun << altitude << "   " << numbersOf(cellOf(v, regime, a)) << "\n";
+        }
+        to << sun << "        all   " << numbersOf(cellOf(v, regime, -1)) << "\n";
     }
     if (v.darkRows > 0)
         to << "\nAll but without light in the reference, and left out: " << v.darkRows << " samples.\n";

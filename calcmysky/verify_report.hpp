@@ -11,10 +11,6 @@
 
 namespace sky::cli {
 
-/// Where few random paths carry most of the light, a mean of too few misses them, and its standard error misses that too. Seen
-/// in deep twilight from 5 % on: 2.5 times too dark at a stated noise of 10 %.
-constexpr double unsureNoise = 0.05;
-
 /// One sample: what the model says and what the judge says, per unit solar irradiance, 1/sr.
 struct VerifiedRow {
     Sample sample;
@@ -33,7 +29,7 @@ struct Verification {
     SampleScale scale;
     std::vector<VerifiedRow> rows; ///< those with light of which the reference is sure
     int darkRows = 0;              ///< samples without light in the reference: relative errors mean nothing there
-    int unsureRows = 0;            ///< samples whose reference stayed noisier than unsureNoise
+    int unsureRows = 0;            ///< samples of which the reference stayed unsure: isSure()
 };
 
 void printTable(const Verification& verification, std::ostream& to);

@@ -71,6 +71,21 @@ double angleToSun(const montecarlo::Query& q)
                                 -1., 1.));
 }
 
+/// Elevation of a view that fills its range as evenly as `view` and `side` fill 0..1, but quadratically: half of the views lie in the quarter
+/// next to the horizon, where the sky changes fastest.
+double elevationOf(const physics::Planet& planet, const double scatteringTop, const double altitude, const double view, const double side)
+{
+    const double horizon = physics::horizonElevation(planet, altitude);
+    const bool fromSpace = altitude >= planet.topOfAtmosphere, few = side < 0.25;
+    const double down = horizon - (pi / 2 + horizon) * view * view;
+    if (fromSpace) {
+        const physics::Planet upToThere{planet.radius + scatteringTop, planet.topOfAtmosphere - scatteringTop};
+        const double limb = physics::horizonElevation(upToThere, altitude - scatteringTop);
+        return few ? horizon + (limb - horizon) * view : down;
+    }
+    return few && altitude > 0 ? down : horizon + (pi / 2 - horizon) * view * view;
+}
+
 } // namespace
 
 const char* nameOf(const Regime regime) { return regime == Regime::Day ? "day" : regime == Regime::Sunset ? "sunset" : "twilight"; }
@@ -82,6 +97,7 @@ SampleScale sampleScale(const physics::Medium& medium)
     SampleScale scale;
     for (const double altitude : {0., 2e3, 12e3, 60e3})
         scale.altitudes.push_back(altitude / earthTop * top);
+    scale.altitudes.push_back(medium.topOfAtmosphere);
     const physics::Planet planet{medium.planetRadius, medium.topOfAtmosphere};
     const double unit = -physics::horizonElevation(planet, top) / earthDip;
     // A tiny planet has its air lit from far below the horizon; day still begins at 40 degrees at the latest.
@@ -98,13 +114,14 @@ std::vector<Sample> sampleSky(const physics::Medium& medium, const int rowsPerCe
     const SampleScale scale = sampleScale(medium);
     const physics::Planet planet{medium.planetRadius, medium.topOfAtmosphere};
     const std::vector<int> wavelengths = chosenWavelengths(medium);
+    const double top = scatteringTop(medium);
+    const int within = static_cast<int>(scale.altitudes.size()) - 1; // altitudes in the air, whose samples are as if there was no other
     std::vector<Sample> samples;
     for (const Regime regime : allRegimes)
         for (int a = 0; a < static_cast<int>(scale.altitudes.size()); ++a) {
             const double altitude = scale.altitudes[static_cast<std::size_t>(a)];
-            const double horizon = physics::horizonElevation(planet, altitude);
             const auto& range = scale.suns[static_cast<int>(regime)];
-            const int cell = static_cast<int>(regime) * static_cast<int>(scale.altitudes.size()) + a;
+            const int cell = a < within ? static_cast<int>(regime) * within + a : 3 * within + static_cast<int>(regime);
             int found = 0;
             for (int i = 0; found < rowsPerCell; ++i) {
                 const auto [sun, view, azimuth, side] = evenPoint(i, cell);
@@ -112,10 +129,7 @@ std::vector<Sample> sampleSky(const physics::Medium& medium, const int rowsPerCe
                 montecarlo::Query& q = sample.query;
                 q.altitude = altitude;
                 q.sunZenithAngle = pi / 2 - (range.low + (range.high - range.low) * sun);
-                // Quadratic: half of the views lie in the lowest quarter of the sky, where it changes fastest.
-                const bool down = altitude > 0 && side < 0.25;
-                const double elevation = down ? horizon - (pi / 2 + horizon) * view * view : horizon + (pi / 2 - horizon) * view * view;
-                q.viewZenithAngle = pi / 2 - elevation;
+                q.viewZenithAngle = pi / 2 - elevationOf(planet, top, altitude, view, side);
                 q.relativeAzimuth = pi * azimuth;
                 q.wavelength = wavelengths[static_cast<std::size_t>(found) % wavelengths.size()];
                 if (angleToSun(q) < awayFromSun + medium.sunAngularRadius)

@@ -86,9 +86,10 @@ TEST_CASE("samples: on the Earth they lie where its regimes are")
     CHECK(scale.suns[0].low / degree == Approx(4).margin(0.3));
     CHECK(scale.suns[1].low / degree == Approx(-1).margin(0.1));
     CHECK(scale.suns[2].low / degree == Approx(-6).margin(0.5));
-    REQUIRE(scale.altitudes.size() == 4);
+    REQUIRE(scale.altitudes.size() == 5);
     CHECK(scale.altitudes[0] == 0);
     CHECK(scale.altitudes[2] == Approx(12e3).epsilon(0.1));
+    CHECK(scale.altitudes[4] == 120e3);
 }
 
 TEST_CASE("samples: inside the air, clear of the Sun, in every cell, on planets of any size")
@@ -96,23 +97,31 @@ TEST_CASE("samples: inside the air, clear of the Sun, in every cell, on planets 
     const double radius = GENERATE(100e3, 3390e3, 6371e3, 70e6);
     const physics::Medium medium = exponentialAir(radius, 10e3);
     const auto samples = sampleSky(medium, 9);
-    REQUIRE(samples.size() == 3 * 4 * 9);
-    int downwards = 0;
+    REQUIRE(samples.size() == 3 * 5 * 9);
+    int downwards = 0, throughTheLimb = 0, groundFromSpace = 0;
     for (std::size_t i = 0; i < samples.size(); ++i) {
         const auto& q = samples[i].query;
         INFO("sample " << i);
-        CHECK(static_cast<std::size_t>(samples[i].regime) == i / 36);
+        CHECK(static_cast<std::size_t>(samples[i].regime) == i / 45);
         CHECK((q.altitude >= 0 && q.altitude <= medium.topOfAtmosphere));
         CHECK((q.viewZenithAngle >= 0 && q.viewZenithAngle <= std::numbers::pi));
         CHECK((q.wavelength == 0 || q.wavelength == 1));
         if (samples[i].altitudeIndex == 0)
             CHECK(q.viewZenithAngle <= std::numbers::pi / 2);
+        if (samples[i].altitudeIndex == 4) { // nothing there is above the camera
+            const double nearest = (radius + medium.topOfAtmosphere) * std::sin(q.viewZenithAngle);
+            CHECK((q.viewZenithAngle > std::numbers::pi / 2 && nearest < radius + medium.topOfAtmosphere));
+            ++(nearest < radius ? groundFromSpace : throughTheLimb);
+            continue;
+        }
         downwards += q.viewZenithAngle > std::numbers::pi / 2 + 0.1;
         const double cosine = std::cos(q.viewZenithAngle) * std::cos(q.sunZenithAngle) +
                               std::sin(q.viewZenithAngle) * std::sin(q.sunZenithAngle) * std::cos(q.relativeAzimuth);
         CHECK(cosine < std::cos(5 * degree));
     }
     CHECK(downwards > 9);
+    CHECK(groundFromSpace > 15); // of 27
+    CHECK(throughTheLimb > 3);
     // More rows begin with fewer: results of short and long runs can be compared row by row.
     CHECK(sampleSky(medium, 20)[20].query.sunZenithAngle == samples[9].query.sunZenithAngle);
 }
@@ -149,6 +158,22 @@ TEST_CASE("judge: rows are as noisy as asked, or share the time")
         CHECK(std::abs(limited[i].multiple - unlimited[i].multiple) <
               4 * std::hypot(limited[i].multipleStderr, unlimited[i].multipleStderr));
     }
+}
+
+TEST_CASE("judge: time goes to the row that is of use soonest, then to the noisiest, never to one without light")
+{
+    const auto row = [](const double noise, const double light = 1, const std::int64_t paths = 1 << 20) {
+        montecarlo::Result r;
+        r.multiple = light;
+        r.multipleStderr = noise * light;
+        r.paths = paths;
+        return r;
+    };
+    CHECK(neediest({row(0.001), row(0.9), row(0.2), row(0.04)}, 1e-3) == 2);
+    CHECK(neediest({row(0.001), row(0.02), row(0.04)}, 1e-3) == 2);
+    CHECK(neediest({row(0.01), row(0.04, 1, 100)}, 1e-3) == 1); // so few paths don't know how noisy they are
+    CHECK(neediest({row(0.02), row(0.2, 1e-20), row(0, 0)}, 1e-3) == 0);
+    CHECK(neediest({row(1e-4), row(0.2, 1e-20)}, 1e-3) == 2);
 }
 
 TEST_CASE("queries: columns in any order, a table of results can be asked again, mistakes are named")
@@ -208,11 +233,12 @@ TEST_CASE("report: cells hold their rows, the largest error is found")
     CHECK(largestError(v) == Approx(0.03));
     std::ostringstream table, text;
     printTable(v, table);
-    CHECK_THAT(table.str(), Contains("all orders") && Contains("nothing to compare") && Contains("3.00 %") && Contains("1.00 %"));
+    CHECK_THAT(table.str(), Contains("all orders") && Contains("nothing to compare") && Contains("3.00 %") && Contains("1.00 %") &&
+                                Contains("from space"));
     writeJson(v, text);
     const auto json = nlohmann::json::parse(text.str());
     CHECK(json["orders"] == "all");
-    CHECK(json["cells"].size() == 12);
+    CHECK(json["cells"].size() == 15);
     CHECK(json["regimes"]["sunset"]["rms_error"].get<double>() == Approx(0.03));
     CHECK(json["rows"][0]["error"].get<double>() == Approx(0.03));
 }
@@ -264,7 +290,7 @@ TEST_CASE("verify finds a good model good, and reference answers its own table",
     CHECK(json["regimes"]["day"]["rms_error"].get<double>() < 0.01);
     CHECK(json["regimes"]["sunset"]["rms_error"].get<double>() < 0.015);
     const std::size_t samples = json["rows"].size() + json["unsure_samples"].get<std::size_t>() + json["dark_samples"].get<std::size_t>();
-    CHECK(samples == 72);
+    CHECK(samples == 90);
 
     directory.file("q.csv", "altitude_m,sza_deg,vza_deg,relaz_deg,lambda_nm\n0,60,30,90,391.333\n");
     const auto asked = calcmysky({"reference", "model", "q.csv", "--relative-error", "0.003", "-q"});

@@ -32,6 +32,7 @@ from scenes import scene
 HERE = os.path.dirname(os.path.abspath(__file__))
 TOO_LONG = 124
 JUDGING = 60 # seconds of a processor's time for the questions to a model, beside those that its computation may take
+OPAQUE = 7 # optical depth through which a thousandth of the light comes
 ENOUGH = 8 # samples that say something
 # Largest rms error against the reference, by phase functions (gentle, or with peaks sharper than the harmonics) and by the light of a sample,
 # of that of the brightest. Less than the last is dark, and nobody's error.
@@ -100,10 +101,21 @@ def rms_of(rows):
     return rms, math.sqrt(float(np.sum(4 * errors**2 * noise**2 + 2 * noise**4))) / len(rows) / max(2 * rms, 1e-9)
 
 
+def sees_ground(facts, row):
+    """Whether light of the ground reaches the camera within a peak: it would be the air's to the reference and the ground's to the model. A black ground
+    sends none, and through opaque air none comes."""
+    wavelength = int(np.argmin(np.abs(np.array(facts["wavelengths"]) - row["lambda_nm"])))
+    downwards = math.radians(row["vza_deg"]) > math.pi / 2 + dip(facts, row["altitude_m"])
+    return downwards and facts["albedo"][wavelength] > 0 and not (from_space(facts, row) and facts["transport"][wavelength] > OPAQUE)
+
+
+def from_space(facts, row):
+    return row["altitude_m"] > (1 - 1e-6) * facts["top"]
+
+
 def verify(options, model, facts, scratch):
     """Complaints, and ((phase functions, light), rms error, its uncertainty) against the Monte Carlo reference; (.., None, None) where it could not tell.
-    Left out: what is dark; and the ground in view behind air with sharp peaks, where light scattered within a peak is
-    the air's to the reference and the ground's to the model."""
+    Left out: what is dark; and where phase functions have sharp peaks the ground in view."""
     report, kind = os.path.join(scratch, "v.json"), "gentle" if facts["gentle"] else "sharp"
     code, said = run([os.path.join(options.bin, "calcmysky"), "verify", model, "--seconds", str(options.verify), "--json", report, "-q"],
                      options.seconds + 10 * options.verify)
@@ -117,9 +129,8 @@ def verify(options, model, facts, scratch):
     brightest = max(light.values(), default=0)
     used = {name: [] for name, _ in LIGHT}
     for row in rows:
-        ground = math.radians(row["vza_deg"]) > math.pi / 2 + dip(facts, row["altitude_m"])
         name = next((name for name, share in LIGHT if light[id(row)] > share * brightest), None)
-        if name and (facts["gentle"] or not ground):
+        if name and (facts["gentle"] or not sees_ground(facts, row)):
             used[name].append((row["error"], row["reference_stderr"] / light[id(row)]))
     found = [((kind, name), *(rms_of(part) if len(part) >= ENOUGH else (None, None))) for name, part in used.items()]
     return [f"error {100 * rms:.1f} % +- {100 * noise:.1f} % of {name} light" for (_, name), rms, noise in found

@@ -13,6 +13,7 @@ PHASES = {
     "peak": "float x = acos(clamp(dotViewSun, -1.0, 1.0)) / 0.02; return vec4(0.5/(4.0*PI) + 0.5*exp(-x*x)/(PI*0.0004));",
 }
 GENTLE = ("isotropic", "Rayleigh", "Henyey-Greenstein 0.5")
+MEAN_COSINE = {"isotropic": 0, "Rayleigh": 0, "peak": 0.5} # half of the light of the peak, which is a degree wide; others have it in their name
 
 
 def phase_code(name):
@@ -53,7 +54,8 @@ def spectrum(values):
 
 
 def scene(rng):
-    """Text of a description, and what the checks need to know of it."""
+    """Text of a description, and what the checks need to know of it. Its `transport` is the vertical optical depth by wavelength that even light within
+    a peak doesn't pass, tau (1 - omega g)."""
     planet, top = (float("%.9e" % log_uniform(rng, *ends)) for ends in ((1e5, 1e10), (1, 1e6))) # as written below
     count = rng.choice([4, 4, 4, 4, 5, 6, 16, 64])
     sun = rng.choice([0.5, 1.0, 1.0, 30.0, 1e20]) * AU
@@ -74,7 +76,8 @@ def scene(rng):
         "eclipsed double scattering texture size for relative azimuth: 2",
         "light pollution texture size for VZA: 2", "light pollution texture size for altitude: 2",
     ]
-    species, gentle = [], True
+    wavelengths = [0.4 + 0.3 * i / (count - 1) for i in range(count)] # um
+    species, gentle, transport = [], True, [0.0] * count
     for i in range(scatterers):
         depth = rng.choice([0.0, 1e-9, 1e-3, 0.1, 0.5, 1.0, 3.0, 10.0, 1000.0]) / (scatterers if scatterers > 3 else 1)
         phase = list(PHASES)[i] if scatterers == len(PHASES) else rng.choice(list(PHASES))
@@ -82,16 +85,22 @@ def scene(rng):
         omega = rng.choice([1.0, 1.0, 0.9, 0.0])
         code, column = density_code(shape, 1e20, top, rng)
         gentle = gentle and phase in GENTLE
+        kind, angstrom = rng.choice(["smooth", "achromatic", "general"]), rng.choice([0, 0, 1.3, 4])
+        if shape != "nothing":
+            cosine = MEAN_COSINE[phase] if phase in MEAN_COSINE else float(phase.split()[1])
+            transport = [sum_ + depth * wavelength**-angstrom * (1 - omega * cosine) for sum_, wavelength in zip(transport, wavelengths)]
         species.append(f"{phase} {shape} {depth:.3g} {omega:g}")
         lines += [f'Scatterer "s{i}":', "{", "number density:", "```", code, "```", "phase function:", "```", phase_code(phase), "```",
-                  f"phase function type: {rng.choice(['smooth', 'achromatic', 'general'])}",
-                  f"cross section at 1 um: {depth / column:.9e} m^2", f"angstrom exponent: {rng.choice([0, 0, 1.3, 4])}",
+                  f"phase function type: {kind}",
+                  f"cross section at 1 um: {depth / column:.9e} m^2", f"angstrom exponent: {angstrom}",
                   f"single scattering albedo: {spectrum([omega] * count)}", "}"]
     if rng.random() < 0.3:
         species.append("an absorber")
+        depth = rng.choice([0.0, 1.0, 1000.0])
+        transport = [sum_ + 0.7 * depth for sum_ in transport]
         lines += ['Absorber "a":', "{", "number density:", "```", "return altitude > 0.3*atmosphereHeight ? 1.0 : 0.0;", "```",
-                  f"cross section: {spectrum([rng.choice([0.0, 1.0, 1000.0]) / top] * count)}", "}"]
+                  f"cross section: {spectrum([depth / top] * count)}", "}"]
     about = (f"R {planet:.2g} m, top {top:.2g} m, Sun {sun / AU:g} AU, {count} wavelengths, albedo {albedo[0]:g}..{albedo[-1]:g}, orders {orders}: "
              + ("; ".join(species[:3]) or "vacuum") + (" ..." if len(species) > 3 else ""))
-    return "\n".join(lines) + "\n", {"top": top, "planet": planet, "albedo": albedo, "gentle": gentle, "about": about,
+    return "\n".join(lines) + "\n", {"top": top, "planet": planet, "albedo": albedo, "wavelengths": [1000 * w for w in wavelengths], "transport": transport, "gentle": gentle, "about": about,
                                     "eclipsed": scatterers < 3 and rng.random() < 0.2}
