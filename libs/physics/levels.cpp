@@ -76,7 +76,7 @@ private:
     mutable std::vector<double> n_;
 };
 
-/// Altitudes where extinction changes at once, increasing.
+/// Altitudes where extinction changes at once, increasing: the top too, where air ends there at once.
 std::vector<double> jumpsOf(const Profile& profile, const Extinction& extinction)
 {
     const auto& shells = profile.shells();
@@ -94,6 +94,8 @@ std::vector<double> jumpsOf(const Profile& profile, const Extinction& extinction
         if (change > jumpShare * std::max(above, beyond) && change * top > jumpDepth)
             jumps.push_back(0.5 * (shells[k] + shells[next]));
     }
+    if (extinction.at(static_cast<int>(shells.size()) - 2, top) * top > jumpDepth * std::max(1., extinction.depth()))
+        jumps.push_back(top);
     return jumps;
 }
 
@@ -145,7 +147,8 @@ private:
     {
         std::vector<double> edges{0};
         for (const double jump : jumps_)
-            edges.push_back(extinction_.depthBelow(jump));
+            if (jump < top_)
+                edges.push_back(extinction_.depthBelow(jump));
         edges.push_back(extinction_.depth());
         return edges;
     }

@@ -234,20 +234,51 @@ std::vector<double> depthBelowShells(const Profile& profile, const std::vector<d
     return depth;
 }
 
+namespace {
+
+/// The shell above which less than a hundred-thousandth of the optical depth is left.
+size_t upperEnd(const std::vector<double>& depthBelow)
+{
+    size_t k = 0;
+    while (k + 1 < depthBelow.size() && depthBelow.back() - depthBelow[k] > 1e-5 * depthBelow.back())
+        ++k;
+    return k;
+}
+
+/// Altitude above which there is an optical depth of 1, m; 0 where there is less.
+double opaqueAltitude(const Profile& profile, const std::vector<double>& crossSections, const std::vector<double>& depthBelow)
+{
+    constexpr double opaque = 1;
+    const double below = depthBelow.back() - opaque;
+    if (!(below > 0))
+        return 0;
+    const auto k = std::upper_bound(depthBelow.begin(), depthBelow.end() - 1, below) - depthBelow.begin() - 1;
+    double low = profile.shells()[k], high = profile.shells()[k + 1];
+    for (int i = 0; i < 40; ++i) {
+        const double middle = 0.5 * (low + high);
+        const double depth = depthBelow[k] + depthInShell(profile, crossSections, static_cast<int>(k), profile.shells()[k], middle);
+        (depth < below ? low : high) = middle;
+    }
+    return low;
+}
+
+} // namespace
+
 double dipOfAir(const Profile& profile, const std::vector<double>& crossSections)
 {
-    const auto depth = depthBelowShells(profile, crossSections);
     const auto& planet = profile.planet();
-    size_t k = 0;
-    while (k + 1 < depth.size() && depth.back() - depth[k] > 1e-5 * depth.back())
-        ++k;
-    return -horizonElevation(planet, std::max(profile.shells()[k], 1e-3 * planet.topOfAtmosphere));
+    const double end = profile.shells()[upperEnd(depthBelowShells(profile, crossSections))];
+    return -horizonElevation(planet, std::max(end, 1e-3 * planet.topOfAtmosphere));
 }
 
 double sunsetShare(const Profile& profile, const std::vector<double>& crossSections, const double sunRadius)
 {
     constexpr double usual = 0.15; // rad
-    return std::min(1., (dipOfAir(profile, crossSections) + 2 * sunRadius) / usual);
+    const auto depth = depthBelowShells(profile, crossSections);
+    const double top = profile.planet().topOfAtmosphere, ground = opaqueAltitude(profile, crossSections, depth);
+    const double height = std::max(profile.shells()[upperEnd(depth)] - ground, 1e-3 * top);
+    const double dip = -horizonElevation({profile.planet().radius + ground, top - ground}, height);
+    return std::min(1., (dip + 2 * sunRadius) / usual);
 }
 
 } // namespace sky::physics

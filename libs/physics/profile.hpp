@@ -70,7 +70,8 @@ double depthInShell(const Profile& profile, const std::vector<double>& crossSect
 double dipOfAir(const Profile& profile, const std::vector<double>& crossSections);
 
 /// Of the angle over which the Sun goes out, dip of the horizon and diameter of the disc, the part of the Earth's, up to 1. Axes over the
-/// Sun's elevation are made for 1, and narrower in proportion where it is less.
+/// Sun's elevation are made for 1, and narrower in proportion where it is less. Air that is opaque has its horizon where the optical depth
+/// above is 1: it goes dark at once, as a ground does.
 double sunsetShare(const Profile& profile, const std::vector<double>& crossSections, double sunRadius);
 
 } // namespace sky::physics

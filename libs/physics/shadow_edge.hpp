@@ -1,6 +1,7 @@
 #pragma once
 #include "physics/geometry.hpp"
 #include "physics/ray.hpp"
+#include "physics/sun.hpp"
 
 namespace sky::physics {
 
@@ -30,12 +31,11 @@ inline std::vector<double> visibleAlong(const std::vector<double>& above, double
     return visible;
 }
 
-inline std::vector<double> visibleAlong(const Planet& planet, const RayNodes& ray, double muSun, double nu, double sunRadius)
+inline std::vector<double> visibleAlong(const SunTable& sun, const RayNodes& ray, double muSun, double nu, double sunRadius)
 {
     std::vector<double> above;
     for (const auto& node : ray.nodes)
-        above.push_back(std::asin(std::clamp(node.sunScale * muSun + node.nuScale * nu, -1., 1.)) -
-                        horizonElevation(planet, node.altitude));
+        above.push_back(std::asin(std::clamp(node.sunScale * muSun + node.nuScale * nu, -1., 1.)) - sun.horizon(node.altitude));
     return visibleAlong(above, sunRadius);
 }
 

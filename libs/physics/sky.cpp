@@ -19,7 +19,7 @@ void SkyEvaluator::singleAlong(const RayNodes& ray, const double muSun, const do
 {
     const int wavelengths = optics_.wavelengths, scatterers = static_cast<int>(optics_.scatterers.size());
     std::vector<double> lit(scatterers * wavelengths, 0.), transmittance(wavelengths), phase(wavelengths);
-    const auto visible = visibleAlong(profile_.planet(), ray, muSun, nu, medium_.sunAngularRadius);
+    const auto visible = visibleAlong(sun_, ray, muSun, nu, medium_.sunAngularRadius);
     std::vector<double> whole(scatterers, 0.), aside(scatterers, 0.); // phase functions are taken at the mean of all nodes
     for (size_t k = 0; k < ray.nodes.size(); ++k) {
         const auto& node = ray.nodes[k];

@@ -7,6 +7,7 @@
 #include "physics/table_axes.hpp"
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <optional>
 
@@ -28,10 +29,41 @@ constexpr double dark = 20;
 /// Optical depth behind which nothing is followed: what is left could not be told from darkness in single precision.
 constexpr double opaque = 200;
 
+/// Optical depth of a horizontal ray on its way out behind which there is no sunlight: 1e-20 of it.
+constexpr double sunlessDepth = 46;
+
 /// Scale of the elevation axis for the usual sunset, rad.
 constexpr double usualScale = 0.03;
 
 double axisLength(double scale, double range) { return std::asinh(range / scale); }
+
+/// SunTable::sunlessAltitude. Air below, opaque too, may be clearer than above it: a horizontal ray from there meets the latter more steeply.
+double findSunlessAltitude(const Profile& profile, const Optics& optics)
+{
+    RayTracer tracer(profile, optics, 2);
+    std::vector<double> columns(optics.species);
+    const auto isSunless = [&](double altitude) {
+        tracer.columns(altitude, 0, columns.data(), sunlessDepth);
+        double least = std::numeric_limits<double>::infinity();
+        for (int w = 0; w < optics.wavelengths; ++w) {
+            double depth = 0;
+            for (int s = 0; s < optics.species; ++s)
+                depth += columns[s] * optics.extinction[s * optics.wavelengths + w];
+            least = std::min(least, depth);
+        }
+        return least >= sunlessDepth;
+    };
+    const auto& shells = profile.shells();
+    const auto lit = std::find_if_not(shells.begin(), shells.end(), isSunless);
+    if (lit == shells.begin() || lit == shells.end())
+        return 0;
+    double low = *(lit - 1), high = *lit;
+    for (int i = 0; i < 40; ++i) {
+        const double middle = 0.5 * (low + high);
+        (isSunless(middle) ? low : high) = middle;
+    }
+    return low;
+}
 
 /// Smallest and largest optical depth of the air between two altitudes, of all wavelengths.
 std::pair<double, double> opticalDepthBetween(const Profile& profile, const Optics& optics, double from, double to)
@@ -156,7 +188,7 @@ void straighten(const std::vector<double>& positions, double* const values, cons
 
 SunTable::SunTable(const Profile& profile, const Optics& optics, const double sunAngularRadius, const int altitudeCount,
                    const int elevations, const base::StopRequest& stop)
-    : planet_(profile.planet()), sunRadius_(sunAngularRadius),
+    : planet_(profile.planet()), sunRadius_(sunAngularRadius), sunless_(findSunlessAltitude(profile, optics)),
       scale_(usualScale * sunsetShare(profile, largestExtinctions(optics), sunAngularRadius)),
       elevations_(static_cast<int>(std::lround(elevations * axisLength(scale_, pi / 2) / axisLength(usualScale, pi / 2)))),
       wavelengths_(optics.wavelengths), altitudes_(tableAltitudes(profile, optics, altitudeCount)),
@@ -179,7 +211,7 @@ SunTable::SunTable(const Profile& profile, const Optics& optics, const double su
     const double fine = 3 * sunRadius_, step = axisLength(scale_, pi / 2) / (elevations_ - 1);
     const auto fillRow = [&](size_t row, RayTracer& tracer) {
         const bool onGround = row == altitudes_.size();
-        const double h = onGround ? 0 : altitudes_[row], horizon = horizonElevation(planet_, h);
+        const double h = onGround ? 0 : altitudes_[row], horizon = this->horizon(h);
         const double range = pi / 2 - horizon + sunRadius_;
         std::optional<LimbDepths> limb;
         if (sunRadius_ > 0)
@@ -233,6 +265,11 @@ SunTable::Row SunTable::row(const double altitude) const
     return {static_cast<int>(k), std::clamp((measure - measures_[k]) / (measures_[k + 1] - measures_[k]), 0., 1.)};
 }
 
+double SunTable::horizon(const double altitude) const
+{
+    return horizonElevation({planet_.radius + sunless_, planet_.topOfAtmosphere - sunless_}, std::max(0., altitude - sunless_));
+}
+
 double SunTable::axis(const double elevation, const double horizon) const
 {
     const double range = pi / 2 - horizon + sunRadius_;
@@ -242,7 +279,7 @@ double SunTable::axis(const double elevation, const double horizon) const
 
 void SunTable::opticalDepth(const double altitude, const double muSun, double* const result, const double rise) const
 {
-    opticalDepth(row(altitude), horizonElevation(planet_, altitude), std::asin(std::clamp(muSun + rise, -1., 1.)), result);
+    opticalDepth(row(altitude), horizon(altitude), std::asin(std::clamp(muSun + rise, -1., 1.)), result);
 }
 
 void SunTable::opticalDepth(const Row& place, const double horizon, const double elevation, double* const result) const
@@ -259,7 +296,7 @@ void SunTable::opticalDepth(const Row& place, const double horizon, const double
 
 void SunTable::transmittance(const double altitude, const double muSun, double* const result, const double rise) const
 {
-    transmittance(row(altitude), horizonElevation(planet_, altitude), muSun, rise, result);
+    transmittance(row(altitude), horizon(altitude), muSun, rise, result);
 }
 
 void SunTable::transmittance(const Row& place, const double horizon, const double muSun, const double rise, double* const result) const

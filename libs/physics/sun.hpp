@@ -7,10 +7,10 @@
 namespace sky::physics {
 
 /// Attenuation of direct sunlight: optical depth towards the visible part of the solar disc, by altitude and by the
-/// elevation of the Sun's centre above the geometric horizon *of that altitude*.
+/// elevation of the Sun's centre above the horizon *of that altitude*, horizon().
 ///
 /// Sunlight at a point, on a plane facing the Sun, per unit irradiance outside the atmosphere:
-///     visibleDiscFraction(elevation - horizonElevation, radius) exp(-opticalDepth)
+///     visibleDiscFraction(elevation - horizon, radius) exp(-opticalDepth)
 /// Kept apart because the first factor is sharp and known exactly, the second smooth and tabulated.
 class SunTable
 {
@@ -25,6 +25,10 @@ public:
 
     const std::vector<double>& altitudes() const { return altitudes_; }
     int elevationCount() const { return elevations_; }
+    /// Up to this altitude no light passes through the air horizontally: to sunlight it is the ground. m; 0 where the air is not so opaque.
+    double sunlessAltitude() const { return sunless_; }
+    /// Elevation of the horizon over the ground, or over the sunless altitude, rad; 0 below the latter.
+    double horizon(double altitude) const;
     /// Scale of the axis, rad.
     double elevationScale() const { return scale_; }
     /// [altitude, then groundRow()][elevation][wavelength]
@@ -58,6 +62,7 @@ private:
 
     Planet planet_;
     double sunRadius_;
+    double sunless_;
     double scale_;
     int elevations_;
     int wavelengths_;

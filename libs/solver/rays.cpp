@@ -66,7 +66,7 @@ DirectRayData::DirectRayData(const Scene& scene, const std::vector<RayStart>& st
             const auto& node = k < nodeCount ? ray.nodes[k] : ray.ground;
             const double h = k < nodeCount ? node.altitude : 0;
             float* to = &rayNodes[(r * (nodeCount + 1) + k) * 8];
-            const double horizon = physics::horizonElevation(scene.profile.planet(), h);
+            const double horizon = scene.sun.horizon(h);
             const auto [row, fraction] = k < nodeCount ? scene.sun.row(h) : scene.sun.groundRow();
             const double range = std::asinh((pi / 2 - horizon + scene.medium.sunAngularRadius) / scene.sun.elevationScale());
             const double values[8]{node.sunScale, node.nuScale, horizon, 1 / range,

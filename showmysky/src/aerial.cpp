@@ -218,7 +218,7 @@ void Aerial::growLight(int view, const Line& line, const float* shares)
             for (std::size_t w = 0; w < wavelengths; ++w)
                 ratios[i][w] /= 1 - optics.truncation[static_cast<std::size_t>(optics.scatterers[i]) * wavelengths + w];
         }
-        const auto visible = physics::visibleAlong(atmosphere_.planet(), single, muSun, nu, atmosphere_.medium.sunAngularRadius);
+        const auto visible = physics::visibleAlong(sun_, single, muSun, nu, atmosphere_.medium.sunAngularRadius);
         for (std::size_t n = 0; n < single.nodes.size(); ++n) {
             const auto& node = single.nodes[n];
             const SunSeen seen = scene_.eclipse ? scene_.eclipse->sun(direction, node) : SunSeen{1, {}};

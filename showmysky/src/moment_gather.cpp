@@ -115,7 +115,7 @@ MomentGather::Node MomentGather::nodeOf(const physics::RayNodes::Node& node) con
     result.sunScale = static_cast<float>(node.sunScale);
     result.nuScale = static_cast<float>(node.nuScale);
     result.mu = static_cast<float>(node.mu);
-    const double horizon = physics::horizonElevation(atmosphere_.planet(), node.altitude);
+    const double horizon = sun_.horizon(node.altitude);
     const double range = pi / 2 - horizon + static_cast<double>(sunRadius_);
     result.horizon = static_cast<float>(horizon);
     result.inverseRange = static_cast<float>(1 / std::asinh(range / sun_.elevationScale()));

@@ -102,13 +102,14 @@ void addField(const FieldNode& from, int degree, int bentDegree, int scatterers,
 }
 
 /// For each node the horizon, and the length of the axis over which the Sun rises above it.
+///   radius, ground  of the planet as sunlight meets it, and the altitude of that, m
 SKY_WIDEST_VECTORS
-void findHorizons(const physics::Planet& planet, int count, const double* altitudes, float sunRadius, float elevationScale, float* horizons,
+void findHorizons(double radius, double ground, int count, const double* altitudes, float sunRadius, float elevationScale, float* horizons,
                   float* axisScales)
 {
     for (int k = 0; k < count; ++k) {
-        const double h = altitudes[k] > 0 ? altitudes[k] : 0, far = std::sqrt(physics::radiusExcessSquared(planet, h));
-        horizons[k] = -sky::base::arcsineLane(static_cast<float>(far / (planet.radius + h)));
+        const double h = altitudes[k] > ground ? altitudes[k] - ground : 0, far = std::sqrt(h * (h + 2 * radius));
+        horizons[k] = -sky::base::arcsineLane(static_cast<float>(far / (radius + h)));
         const float x = (static_cast<float>(pi / 2) - horizons[k] + sunRadius) / elevationScale;
         axisScales[k] = 1 / sky::base::log2Lane(x + std::sqrt(x * x + 1));
     }
@@ -221,8 +222,9 @@ void FastGather::prepare(FastScratch& scratch) const
     }
     for (auto* numbers : {&scratch.horizons, &scratch.axisScales, &scratch.above, &scratch.places})
         numbers->resize(suns);
-    findHorizons(planet_, suns, ray.single.altitudes.data(), static_cast<float>(sunRadius_), static_cast<float>(sun_.elevationScale()),
-                 scratch.horizons.data(), scratch.axisScales.data());
+    const double ground = sun_.sunlessAltitude();
+    findHorizons(planet_.radius + ground, ground, suns, ray.single.altitudes.data(), static_cast<float>(sunRadius_),
+                 static_cast<float>(sun_.elevationScale()), scratch.horizons.data(), scratch.axisScales.data());
     if (!moments_)
         return;
     const int nodes = ray.multiple.count(), harmonics = physics::harmonicCount(degree_);

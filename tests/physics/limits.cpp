@@ -24,6 +24,14 @@ struct Solution {
           moments(iterateSource(medium, profile, optics, sun, grid, settings, events))
     {
     }
+    /// On the grid that such air gets.
+    Solution(Medium m, const MomentSettings& settings, int events)
+        : medium(std::move(m)), profile(medium), optics(makeOptics(medium, settings.degree, settings.truncatePeaks)),
+          sun(profile, optics, medium.sunAngularRadius),
+          grid(profile, largestExtinctions(optics), settings.altitudes, settings.suns, medium.sunAngularRadius),
+          moments(iterateSource(medium, profile, optics, sun, grid, settings, events))
+    {
+    }
     Solution(const Solution&) = delete;
 
     double radiance(double altitude, double mu, double muSun, double nu) const
@@ -127,6 +135,26 @@ TEST_CASE("isotropic, flat and deep: Chandrasekhar's H function")
             }
         }
     }
+}
+
+TEST_CASE("isotropic and opaque up to where it ends: the Sun sets on a planet as on Chandrasekhar's half-space")
+{
+    // At the top the horizon of the ground is 2.6 degrees below the horizontal; where air is so opaque, the Sun, a point, sets at the latter. Of the
+    // light that comes before, 0.001 of noon's and less, the planet's curve takes little.
+    const double albedo = 0.6, radius = 1.6e7, top = 16e3;
+    MomentSettings settings = flatSettings(2);
+    settings.altitudes = 8;
+    settings.suns = 28;
+    settings.directNodes = 64;
+    const Solution deep(sky::test::layer(200, albedo, 0, sky::test::isotropicPhase, radius, top), settings, 14);
+    for (const double elevation : {0.05, 0.01, 0.004, 0.0017, 0.0009})
+        for (const double mu : {0.2, 0.9}) {
+            const double muSun = std::sin(elevation);
+            const double truth = albedo / (4 * pi) * muSun / (mu + muSun) * chandrasekharH(albedo, mu) * chandrasekharH(albedo, muSun);
+            INFO("elevation of the Sun " << elevation << " rad, mu " << mu << "; " << deep.grid.sunCount() << " Suns");
+            CHECK(deep.radiance(top, -mu, muSun, 0.1) == Approx(truth).epsilon(0.07));
+        }
+    CHECK(deep.radiance(top, -0.9, std::sin(-0.0005), 0.1) < 1e-6); // set
 }
 
 TEST_CASE("energy: flat air that does not absorb, over white ground, returns all the sunlight")

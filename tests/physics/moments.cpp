@@ -202,6 +202,17 @@ TEST_CASE("grid of the moments: a sunset meets as many Suns on any planet, howev
         }
 }
 
+TEST_CASE("grid of the moments: opaque air has the sunset of what is above an optical depth of 1")
+{
+    const double radius = 1.6e7, top = 16e3, depth = 500;
+    const Profile profile(sky::test::layer(depth, 1, 0, sky::test::isotropicPhase, radius, top));
+    const MomentGrid grid(profile, {depth / top}, 12, 28);
+    const double dip = -horizonElevation({radius, top}, top / depth);
+    CHECK(grid.sunPosition(0.5 * dip) - grid.sunPosition(-0.5 * dip) > 4);
+    CHECK(grid.sunElevation(0) < 2 * horizonElevation({radius, top}, top)); // other wavelengths may be clearer
+    CHECK(grid.sunCount() < 28 * 2);
+}
+
 TEST_CASE("grid of the moments: levels follow haze whose profile has no nodes of its own")
 {
     const Profile profile(sky::test::haze(1.25));

@@ -117,7 +117,7 @@ TEST_CASE("layered light: what follows an event under a Sun at the zenith is wha
             for (std::size_t i = 0; i < all.size(); ++i)
                 worst = std::max(worst, std::abs(told[i] - all[i]) / (i + 1 < all.size() ? all[i / terms * terms] : all[i]));
             INFO("albedo " << albedo << " straight " << straight);
-            CHECK(worst < (straight ? 0.03 : 0.008)); // chords of what is curved between levels; else each event's own curves
+            CHECK(worst < (straight ? 0.035 : 0.008)); // chords of what is curved between levels; else each event's own curves
         }
     }
 }
