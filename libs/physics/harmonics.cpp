@@ -38,16 +38,40 @@ std::vector<double> phaseMoments(const Medium& medium, const Species& species, c
     return moments;
 }
 
-void phaseFunctionAt(const Medium& medium, const Species& species, const double theta, double* const values)
+namespace {
+
+/// The gap between two scattering angles that one lies in, and how far: 0..1.
+struct AngleGap {
+    size_t node = 0;
+    double share = 0;
+};
+
+AngleGap angleGap(const Medium& medium, const double theta)
 {
     const auto& angles = medium.scatteringAngles;
-    const int wavelengths = medium.wavelengthCount();
     const size_t k = std::clamp<size_t>(std::upper_bound(angles.begin(), angles.end(), theta) - angles.begin(), 1, angles.size() - 1) - 1;
-    const double x = std::clamp((theta - angles[k]) / (angles[k + 1] - angles[k]), 0., 1.);
-    for (int w = 0; w < wavelengths; ++w) {
-        const double p0 = species.phaseFunction[k * wavelengths + w], p1 = species.phaseFunction[(k + 1) * wavelengths + w];
-        values[w] = p0 > 0 && p1 > 0 ? p0 * std::pow(p1 / p0, x) : p0 + x * (p1 - p0);
-    }
+    return {k, std::clamp((theta - angles[k]) / (angles[k + 1] - angles[k]), 0., 1.)};
+}
+
+double phaseFunctionAt(const Medium& medium, const Species& species, const AngleGap gap, const int wavelength)
+{
+    const auto value = [&](size_t node) { return species.phaseFunction[node * medium.wavelengthsNm.size() + wavelength]; };
+    const double p0 = value(gap.node), p1 = value(gap.node + 1);
+    return p0 > 0 && p1 > 0 ? p0 * std::pow(p1 / p0, gap.share) : p0 + gap.share * (p1 - p0);
+}
+
+} // namespace
+
+double phaseFunctionAt(const Medium& medium, const Species& species, const double theta, const int wavelength)
+{
+    return phaseFunctionAt(medium, species, angleGap(medium, theta), wavelength);
+}
+
+void phaseFunctionAt(const Medium& medium, const Species& species, const double theta, double* const values)
+{
+    const AngleGap gap = angleGap(medium, theta);
+    for (int w = 0; w < medium.wavelengthCount(); ++w)
+        values[w] = phaseFunctionAt(medium, species, gap, w);
 }
 
 } // namespace sky::physics

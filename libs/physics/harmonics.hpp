@@ -57,7 +57,8 @@ void legendre(int degree, double x, double* values);
 /// lambda_0 is the integral of the phase function over the sphere.
 std::vector<double> phaseMoments(const Medium& medium, const Species& species, int wavelength, int degree);
 
-/// Phase function interpolated at scattering angle `theta` (rad), all wavelengths; see Medium for the rule.
+/// Phase function interpolated at scattering angle `theta` (rad), one wavelength or all; see Medium for the rule.
+double phaseFunctionAt(const Medium& medium, const Species& species, double theta, int wavelength);
 void phaseFunctionAt(const Medium& medium, const Species& species, double theta, double* values);
 
 } // namespace sky::physics

@@ -1,5 +1,7 @@
 #include "physics/optics.hpp"
+#include "base/angles.hpp"
 #include "physics/harmonics.hpp"
+#include "physics/phase_fit.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -26,6 +28,9 @@ constexpr double sharpMoment = 0.2;
 /// The same of a peak backward (g = -0.75). That is never truncated: what is cut of it at a low degree is more, and radiances below zero, which are
 /// cut too, make light from nothing: 10 % in air 3 deep of g = -0.8 that absorbs nothing, over white ground.
 constexpr double sharpBackward = 0.1;
+
+/// From this moment of that degree on (g = 0.89 forward or backward) the series is also fitted beyond the peak. Of gentler peaks the ripples are no larger than the light.
+constexpr double fittedMoment = 0.4;
 
 /// Factor of the Legendre moment l, where a sharp series is let fade to its end. With a power of 1 it is a Gaussian, which has no ripples at
 /// all but changes low moments, and with them diffusion; 2 leaves these, and has ripples for g = 0.99. What lies between was tried on clouds,
@@ -121,9 +126,16 @@ Optics makeOptics(const Medium& medium, const int degree, const bool truncate)
             optics.blurred[s * wavelengths + w] = blurred;
             optics.extinction[s * wavelengths + w] = sigma - f * sigmaScattering;
             optics.scattering[s * wavelengths + w] = (1 - f) * sigmaScattering;
+            if (!(sigmaScattering > 0))
+                continue;
+            std::vector<double> scaled(degree + 1);
             for (int l = 0; l <= degree; ++l)
-                optics.moments[(s * (degree + 1) + l) * wavelengths + w] =
-                    sigmaScattering > 0 ? (moments[l] - f) / (1 - f) - momentOf(blurred, l) * (1 - fading(l, degree)) : 0;
+                scaled[l] = (moments[l] - f) / (1 - f) - momentOf(blurred, l) * (1 - fading(l, degree));
+            if (blurred != 0 && std::abs(moments[sharpDegree]) > fittedMoment)
+                fitBeyondPeak(
+                    scaled, [&](double angle) { return 4 * base::pi * phaseFunctionAt(medium, species, angle, w) / (1 - f); }, blurred < 0);
+            for (int l = 0; l <= degree; ++l)
+                optics.moments[(s * (degree + 1) + l) * wavelengths + w] = scaled[l];
         }
         if (scatters)
             optics.scatterers.push_back(s);

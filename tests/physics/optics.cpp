@@ -1,4 +1,5 @@
 #include "physics/optics.hpp"
+#include "base/angles.hpp"
 #include "media.hpp"
 #include "physics/harmonics.hpp"
 #include <catch2/catch.hpp>
@@ -6,6 +7,8 @@
 using namespace sky::physics;
 using sky::test::henyeyGreenstein;
 using sky::test::layer;
+
+static constexpr double pi = sky::base::pi;
 
 TEST_CASE(
     "delta-M scaling: the truncated share is a mean of the moments left out, with more weight for the large ones, or what lets the rest fade")
@@ -96,10 +99,32 @@ TEST_CASE("sharp peaks: their series fade to its end, ripple little below zero, 
                 const Optics optics = makeOptics(air, degree, true);
                 CHECK((optics.truncation[0] == 0) == (opticalDepth < 1)); // thin air is not scaled
                 CHECK(optics.moment(0, 0, 0) == Approx(1).margin(1e-4));  // table of the phase function
-                CHECK(optics.moment(0, degree, 0) < 0.01);
+                CHECK(optics.moment(0, degree, 0) < 0.03);
                 const auto [lowest, highest] = extremes(optics);
                 CHECK(lowest > -0.02 * highest); // of a cut one: -0.11 at best
             }
+}
+
+TEST_CASE("sharp peaks: beyond what the degree resolves their series are the phase function, faint as it is")
+{
+    for (const double g : {0.9, 0.95, 0.99})
+        for (const int degree : {14, 18, 24}) {
+            CAPTURE(g, degree);
+            const auto phase = [&](double t) { return henyeyGreenstein(g, t); };
+            const Optics optics = makeOptics(layer(1, 1, 0, phase), degree, true);
+            const double kept = 1 - optics.truncation[0];
+            std::vector<double> polynomials(degree + 1);
+            double squares = 0;
+            int angles = 0;
+            for (double theta = 40 * pi / 180; theta < pi; theta += pi / 90, ++angles) {
+                legendre(degree, std::cos(theta), polynomials.data());
+                double sum = 0;
+                for (int l = 0; l <= degree; ++l)
+                    sum += (2 * l + 1) / (4 * pi) * optics.moment(0, l, 0) * polynomials[l];
+                squares += std::pow(kept * sum / phase(theta) - 1, 2);
+            }
+            CHECK(std::sqrt(squares / angles) < 0.35); // faded, not fitted: 0.6 to 6
+        }
 }
 
 TEST_CASE("sharp peaks: gentle ones are left alone, and all if told so")
@@ -122,7 +147,7 @@ TEST_CASE("sharp peaks: one backward fades as its mirror image would forward")
                 const Optics optics = makeOptics(back, degree, true);
                 CHECK(optics.truncation[0] == 0);
                 CHECK(optics.moment(0, 0, 0) == Approx(1).margin(3e-4)); // table of the phase function
-                CHECK(std::abs(optics.moment(0, degree, 0)) < 0.01);
+                CHECK(std::abs(optics.moment(0, degree, 0)) < 0.02);
                 const auto [lowest, highest] = extremes(optics);
                 CHECK(lowest > -0.02 * highest);
                 if (g > 0.85 && opticalDepth < 1) { // as thin as that, one forward is not truncated either
