@@ -2,6 +2,7 @@
 #include "physics/series.hpp"
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sky::solver {
 
@@ -45,6 +46,13 @@ double remainderAfter(const double change, const double ratio)
 {
     const double falling = std::min(ratio, 0.99);
     return change * std::max(1., falling / (1 - falling));
+}
+
+double leftAfter(const double before, const double now, const int event, const int most)
+{
+    const double power = std::log2(std::min(before, 1.) / now); // a first guess that is many times too bright tells nothing
+    // The integral of now (n / event)^-power from n = most on.
+    return power > 1 ? now * event / (power - 1) * std::pow(double(event) / most, power - 1) : std::numeric_limits<double>::infinity();
 }
 
 void EventSeries::add(const Sums& event)

@@ -22,6 +22,11 @@ double relativeChange(const std::vector<double>& now, const std::vector<double>&
 /// What is left of light that changed last by `change`, where each change is `ratio` times the one before: at least the last one again.
 double remainderAfter(double change, double ratio);
 
+/// What all events after the first `most` will change, where changes go on falling as the power of the number of events as which they fell
+/// since half as many, as those of light that spreads by diffusion: infinite where they fall as its inverse, or hardly faster.
+///   before, now  changes by event number `event` / 2 and `event`, event <= most
+double leftAfter(double before, double now, int event, int most);
+
 /// The light of all events from that of the first ones. Each event follows from the last by the same operator, so where the
 /// series shall be whole, physics::seriesFactors close it, with one set of factors a wavelength, chosen by the relative difference of
 /// I_00 over all levels and Suns that are lit at all.

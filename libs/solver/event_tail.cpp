@@ -51,7 +51,11 @@ void EventTail::improve(const Sums& next, const Sums& earlier, const LayeredLigh
     add(missing, layers, least);
     before_ = change_;
     change_ = relativeChange(means(), then);
-    stalls_ += !(change_ <= leastGain * before_); // no number is no gain
+    if (change_ <= leastGain * least_) { // no number is no gain
+        least_ = change_;
+        idle_ = 0;
+    } else
+        ++idle_;
 }
 
 void EventTail::judge(const Sums& missing, const double least)
@@ -69,7 +73,8 @@ void EventTail::judge(const Sums& missing, const double least)
         }
     for (std::size_t column = 0; column < columns; ++column) {
         const double wrong = lit[column] > 0 ? std::sqrt(squares[column] / lit[column]) : 0;
-        if (wrong > leastGain * wrong_[column])
+        // A correction of which a part is taken leaves at least the rest: that is no sign against it.
+        if (wrong > (1 - (1 - leastGain) * trust_[column]) * wrong_[column])
             trust_[column] *= lessTrust;
         wrong_[column] = wrong;
     }

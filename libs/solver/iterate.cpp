@@ -7,6 +7,7 @@
 #include "solver/event_tail.hpp"
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sky::solver {
 
@@ -93,7 +94,7 @@ public:
 
     /// The same scattering, of light that is everywhere the same; once scattered() has traced the rays.
     ///   light  what there is of it, for its shape; null: as bright everywhere
-    LayeredLight layers(const Sums* light, bool straight) const
+    LayeredLight layers(const Sums* light) const
     {
         const int levels = grid_.altitudeCount(), wavelengths = scene_.optics.wavelengths;
         const std::size_t perPoint = std::size_t(harmonicCount(settings_.degree)) * wavelengths;
@@ -102,7 +103,7 @@ public:
             for (std::size_t point = 0; point < std::size_t(levels) * samples_.suns; ++point)
                 for (int w = 0; w < wavelengths; ++w)
                     shape[point / samples_.suns * wavelengths + w] += std::max(0., light->moments[point * perPoint + w]);
-        LayeredLight result(std::move(shape), wavelengths, settings_.degree, straight);
+        LayeredLight result(std::move(shape), wavelengths, settings_.degree, !light);
         for (const Block& block : blocks_)
             result.add(*block.scattered, directions_, block.firstLevel, block.levels);
         result.factorise();
@@ -259,19 +260,21 @@ struct Closed {
 ///   count   of sweeps; goes on
 Closed close(Sweeps& sweeps, const Sums& sum, const Sums& last, double tolerance, int& count, const Breath& breath)
 {
-    Closed result{sum, {}, 1};
+    Closed result{sum, {}, std::numeric_limits<double>::infinity()};
     addTo(result.earlier, last, -1);
-    EventTail tail(last, sweeps.layers(nullptr, true), sweeps.suns());
+    EventTail tail(last, sweeps.layers(nullptr), sweeps.suns());
     for (int i = 0; i < reshapings; ++i)
-        tail.begin(sweeps.layers(&tail.light(), true));
+        tail.begin(sweeps.layers(&tail.light()));
     const int next = count + 1;
     do {
         const Sums swept = sweeps.scattered(sweeps.toMoments(tail.light()), next, breath);
-        tail.improve(swept, result.earlier, sweeps.layers(&tail.light(), false));
+        tail.improve(swept, result.earlier, sweeps.layers(&tail.light()));
         ++count;
-        result.remainder = tail.remainder();
+        if (!(tail.remainder() >= result.remainder)) { // near the end changes leap
+            result.remainder = tail.remainder();
+            result.rest = tail.light();
+        }
     } while (!(result.remainder < tolerance) && !tail.stalls());
-    result.rest = tail.light();
     return result;
 }
 
@@ -299,6 +302,8 @@ RadiationField iterate(const gl::Api& api, const Scene& scene, const physics::Mo
     };
     keep();
     std::optional<Closed> late;
+    int nextLook = mostSingly; // event after which to ask where it leads to go on
+    double halfwayChange = 0;  // by the event at half its number
     const double tolerance = limit.tolerance > 0 ? limit.tolerance : limit.all ? settings.tolerance : 0;
     for (int event = 2; event <= wanted; ++event) {
         last = sweeps.scattered(sweeps.toMoments(last), event, [&] { breath(fractionOf(field.eventCount)); });
@@ -308,11 +313,17 @@ RadiationField iterate(const gl::Api& api, const Scene& scene, const physics::Mo
         field.remainder = late ? series.remainder() : series.change();
         if (field.remainder < tolerance)
             break;
-        if (limit.all && event == mostSingly) {
+        if (2 * event == nextLook)
+            halfwayChange = series.change();
+        if (!limit.all || event != nextLook)
+            continue;
+        if (!late)
             late = close(sweeps, series.sum(), last, tolerance, field.eventCount, [&] { breath(fractionOf(field.eventCount)); });
-            if (late->remainder < tolerance)
-                break;
-        }
+        // Those that are allowed would leave more: light that spreads by diffusion, on which it takes minutes to find out.
+        if (late->remainder < std::max(tolerance, leftAfter(halfwayChange, series.change(), event, wanted)))
+            break;
+        halfwayChange = series.change();
+        nextLook *= 2;
     }
     Sums total, rest; // the latter: of the last event and all that follow
     if (late && late->remainder < field.remainder) {

@@ -15,8 +15,9 @@ using base::pi;
 /// Harmonics that last in deep air: means, fluxes, and what of sharp peaks lasts longest.
 constexpr int lasting = 2;
 
-/// Corrections are told from what sweeps in single precision differ by, and may amplify that by no more than the inverse.
-constexpr double rounding = 1e-4;
+/// Corrections are told from what sweeps in single precision differ by, some 1e-7, and may amplify that by no more than the inverse. Light
+/// that nothing absorbs lasts over (depth / pi)^2 / 0.3 events, 3e5 where it is 1000 deep: allowed less, most of it would never be added.
+constexpr double rounding = 1e-6;
 
 /// Largest quotient of the shape at four levels for which it is gentle.
 constexpr double gentle = 3;

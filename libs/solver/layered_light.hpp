@@ -15,8 +15,8 @@ class LayeredLight
 {
 public:
     /// \param shape  [level][wavelength], > 0: how light goes with altitude, differences from which are what is interpolated
-    /// \param straight  between two levels, so that light of a rough shape can't become negative; false: as the field is, for small
-    /// corrections
+    /// \param straight  between two levels, so that light of a shape that is not known yet can't become negative; false: as the field is,
+    /// where the shape is gentle. A chord bends at its ends: drawn between deep levels of a known shape, it takes light that nothing absorbs.
     LayeredLight(std::vector<double> shape, int wavelengths, int degree, bool straight);
 
     /// Harmonics that are kept, l = 0 .. degree().

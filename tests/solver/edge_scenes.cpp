@@ -122,9 +122,9 @@ TEST_CASE("edge scene: all orders of a cloud without end are found as far as the
     scene.albedo = "0";
     scene.radius = "256e6 m";
     scene.top = "1e6 m";
-    // A cloud of optical depth 1000 that absorbs nothing, and no air under it.
+    // A cloud of optical depth 100 000 that absorbs nothing, and no air under it.
     scene.species = SceneText::scatterer("drops", "max(0.0, 1.0 - sqr(altitude/34e3 - 10.0))", "vec4(1.0/(4.0*PI))", "achromatic",
-                                         "0.022 m^2", "single scattering albedo: 1, 1");
+                                         "2.2 m^2", "single scattering albedo: 1, 1");
     Options options = draft();
     options.parts = {Part::Moments};
     const Run deep(*context, scene.parse(), options);
