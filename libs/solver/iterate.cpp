@@ -319,9 +319,12 @@ RadiationField iterate(const gl::Api& api, const Scene& scene, const physics::Mo
             continue;
         if (!late)
             late = close(sweeps, series.sum(), last, tolerance, field.eventCount, [&] { breath(fractionOf(field.eventCount)); });
-        // Those that are allowed would leave more: light that spreads by diffusion, on which it takes minutes to find out.
-        if (late->remainder < std::max(tolerance, leftAfter(halfwayChange, series.change(), event, wanted)))
+        const double promised = leftAfter(halfwayChange, series.change(), event, wanted);
+        if (late->remainder < std::max(tolerance, promised)) {
+            // Those that are allowed would leave more: light that spreads by diffusion, on which it takes minutes to find out.
+            field.remainder = std::max(field.remainder, promised);
             break;
+        }
         halfwayChange = series.change();
         nextLook *= 2;
     }
