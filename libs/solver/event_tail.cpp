@@ -13,6 +13,8 @@ namespace {
 constexpr double leastLeft = 0.1;
 /// Change by a sweep, and what it finds wrong, of that of the one before, above which nothing is gained.
 constexpr double leastGain = 0.7;
+/// Sweeps before that is asked of all together: light first comes to where layers had told of none.
+constexpr int firstSweeps = 10;
 /// Of the trust in layers that is left where they were wrong.
 constexpr double lessTrust = 0.3;
 
@@ -51,11 +53,9 @@ void EventTail::improve(const Sums& next, const Sums& earlier, const LayeredLigh
     add(missing, layers, least);
     before_ = change_;
     change_ = relativeChange(means(), then);
-    if (change_ <= leastGain * least_) { // no number is no gain
+    if (change_ < least_) // no number is no gain
         least_ = change_;
-        idle_ = 0;
-    } else
-        ++idle_;
+    ++sweeps_;
 }
 
 void EventTail::judge(const Sums& missing, const double least)
@@ -121,6 +121,8 @@ void EventTail::add(const Sums& fresh, const LayeredLight& layers, const double 
         }
     });
 }
+
+bool EventTail::stalls() const { return least_ > std::pow(leastGain, sweeps_ - firstSweeps); }
 
 double EventTail::remainder() const { return remainderAfter(change_, change_ / std::max(before_, 1e-300)); }
 

@@ -24,9 +24,9 @@ public:
     /// What is left, rms of its part of all light: the last change, and those that will follow if each is in proportion to the one before
     /// as that was.
     double remainder() const;
-    /// Whether several sweeps changed hardly less than the best of those before: then layers don't tell where light goes, and the tail is of
-    /// no use. In a gap under a deep cloud it goes far to the side, into the night.
-    bool stalls() const { return idle_ > 5; }
+    /// Whether sweeps on the whole gain too little: then layers don't tell where light goes, and the tail is of no use. In a gap under a deep
+    /// cloud it goes far to the side, into the night.
+    bool stalls() const;
 
 private:
     /// Where a sweep leaves more than a part of what the one before it left, layers were trusted too far.
@@ -39,7 +39,7 @@ private:
     int suns_, wavelengths_, harmonics_;
     Sums light_;
     double change_ = 1, before_ = 1, least_ = 1;
-    int idle_ = 0; // sweeps since the least change
+    int sweeps_ = 0;
     /// [sun][wavelength]: how far layers are followed, 0..1; less where they told wrong, as in twilight, where light comes from beside.
     std::vector<double> trust_;
     std::vector<double> wrong_; // [sun][wavelength]: by how much its light was wrong at the last sweep, rms of its part
