@@ -14,7 +14,7 @@ constexpr double leastLeft = 0.1;
 /// Change by a sweep, and what it finds wrong, of that of the one before, above which nothing is gained.
 constexpr double leastGain = 0.7;
 /// Sweeps before that is asked of all together: light first comes to where layers had told of none.
-constexpr int firstSweeps = 10;
+constexpr int firstSweeps = 15;
 /// Of the trust in layers that is left where they were wrong.
 constexpr double lessTrust = 0.3;
 

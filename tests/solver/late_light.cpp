@@ -158,7 +158,7 @@ TEST_CASE("event tail: changes that hardly fall are no way to an end")
             ++sweeps;
         }
         INFO("part " << part << " sweeps " << sweeps);
-        CHECK(sweeps < 25);
+        CHECK(sweeps < 30);
         CHECK(tail.remainder() > 0.8 * std::min(1., std::pow(part, sweeps + 1))); // of all light, the part after so many
     }
 }
