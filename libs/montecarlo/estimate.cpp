@@ -20,7 +20,7 @@ constexpr std::int64_t hopelessBatches = 512;
 
 // Where time is limited, and paths take long:
 constexpr double patience = 0.25; // s, for the first batches, however short the time
-constexpr int fewestPaths = 4;   // in a batch
+constexpr int fewestPaths = 4;    // in a batch
 
 /// Says when no more batches are begun.
 class Deadline
