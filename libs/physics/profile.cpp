@@ -213,16 +213,18 @@ void Profile::densities(const int interval, const double altitude, double* const
 double depthInShell(const Profile& profile, const std::vector<double>& crossSections, const int interval, const double bottom,
                     const double altitude)
 {
-    constexpr int points = 8; // shells may be scale heights thick
-    const double thickness = altitude - bottom;
-    std::vector<double> n(crossSections.size());
-    double mean = 0;
-    for (int q = 0; q < points; ++q) {
-        profile.densities(interval, bottom + thickness * (q + 0.5) / points, n.data());
-        for (size_t s = 0; s < n.size(); ++s)
-            mean += n[s] * crossSections[s] / points;
+    constexpr double even = 1e-4; // logarithm of a ratio, below which an exponential is straight to 1e-9
+    const size_t species = crossSections.size();
+    std::vector<double> low(species), high(species);
+    profile.densities(interval, bottom, low.data());
+    profile.densities(interval, altitude, high.data());
+    double mean = 0; // shells may be many scale heights thick
+    for (size_t s = 0; s < species; ++s) {
+        const bool logarithmic = profile.logarithmic(interval, static_cast<int>(s)) && low[s] > 0 && high[s] > 0;
+        const double ratio = logarithmic ? std::log(high[s] / low[s]) : 0;
+        mean += crossSections[s] * (std::abs(ratio) > even ? (high[s] - low[s]) / ratio : 0.5 * (low[s] + high[s]));
     }
-    return mean * thickness;
+    return mean * (altitude - bottom);
 }
 
 std::vector<double> depthBelowShells(const Profile& profile, const std::vector<double>& crossSections)

@@ -108,3 +108,18 @@ TEST_CASE("field levels: where a density goes to zero, hundreds of shells are no
     CHECK(std::count_if(levels.begin(), levels.end(), atFoot) <= 8);
     CHECK(levels.size() < 90); // of 112 that there may be
 }
+
+TEST_CASE("field levels: dense air without nodes of its own has them where it becomes opaque, seen from above")
+{
+    // 14 scale heights in one shell, 20 000 deep: what is seen from space is seven of them up.
+    const double depth = 2e4, height = 2e3, top = 28e3;
+    const Profile profile(sky::test::withDensity(sky::test::layer(1, 1, 0, sky::test::isotropicPhase), {0, top}, {1, std::exp(-14.)}));
+    const auto levels = fieldLevels(profile, {depth / height}, 14);
+    CHECK(levels.size() <= 8 * 14);
+    const auto above = [&](double h) { return depth * std::exp(-h / height); };
+    for (std::size_t k = 0; k + 1 < levels.size(); ++k)
+        if (above(levels[k + 1]) < 3) {
+            INFO(levels[k] << " to " << levels[k + 1] << " m");
+            CHECK(above(levels[k]) - above(levels[k + 1]) < 0.7);
+        }
+}

@@ -162,3 +162,15 @@ TEST_CASE("profile: air that thins out has no edge, nor has a layer in other air
         CHECK(profile.withShellsUnderEdges().shells() == profile.shells());
     }
 }
+
+TEST_CASE("profile: the optical depth of a shell of many scale heights is that of its parts together")
+{
+    // One shell of 14 scale heights; and one in which the density itself is straight.
+    const Profile exponential(sky::test::withDensity(sky::test::layer(1, 1, 0, sky::test::isotropicPhase), {0, 28e3}, {1, std::exp(-14.)}));
+    const Profile linear(sky::test::withDensity(sky::test::layer(1, 1, 0, sky::test::isotropicPhase), {0, 28e3}, {1, 0}));
+    REQUIRE(exponential.shells().size() == 2);
+    for (const double h : {1., 500., 4e3, 17e3, 28e3}) {
+        CHECK(depthInShell(exponential, {3}, 0, 0, h) == Approx(3 * 2e3 * -std::expm1(-h / 2e3)).epsilon(1e-9));
+        CHECK(depthInShell(linear, {3}, 0, 0, h) == Approx(3 * h * (1 - 0.5 * h / 28e3)).epsilon(1e-9));
+    }
+}
