@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iomanip>
 #include <map>
+#include <numeric>
 #include <sstream>
 
 namespace sky::solver {
@@ -250,6 +251,27 @@ Pick pickQuality(const double tolerance, const physics::Medium& medium)
     return {point.name, error, reached,
             reached ? "A tolerance of " + percent(tolerance) + " takes " + what + "."
                     : "No quality is predicted to reach a tolerance of " + percent(tolerance) + ": taken is " + what + "."};
+}
+
+std::vector<std::string> unresolvedPeaks(const physics::Medium& medium, const physics::Optics& optics)
+{
+    constexpr double mostOfIt = 0.75; // truncated; of a cloud's droplets of g = 0.9 it is 0.16
+    std::vector<std::string> sentences;
+    if (!(scatteringDepth(medium) > thick))
+        return sentences;
+    const int wavelengths = medium.wavelengthCount();
+    for (const int s : optics.scatterers) {
+        const auto depths = scatteringDepths(medium, medium.species[s]);
+        const double mine = std::accumulate(depths.begin(), depths.end(), 0.) / wavelengths;
+        const auto first = optics.truncation.begin() + s * wavelengths;
+        const double truncated = *std::max_element(first, first + wavelengths);
+        if (truncated > mostOfIt && mine > 0.5 * scatteringDepth(medium))
+            sentences.push_back(
+                "Scatterer `" + medium.species[s].name + "` throws " + percent(truncated) +
+                " of its light into a peak that is too narrow for this quality, and taken as if it went straight on: what such "
+                "dense air throws back at grazing angles may be twice as bright as it should be.");
+    }
+    return sentences;
 }
 
 Options settled(Options options, const physics::Medium& medium, Progress& progress)

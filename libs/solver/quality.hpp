@@ -46,6 +46,11 @@ struct Pick {
 /// The cheapest quality predicted to reach `tolerance` in such air; where none is, the cheapest of those that err least.
 Pick pickQuality(double tolerance, const physics::Medium& medium);
 
+/// Sentences about scatterers that do most of the scattering in dense air, and throw most of it into a peak so narrow that it is truncated: from
+/// there light goes straight on, along the surface of a cloud too, where it would be thrown out or in.
+///   optics  at the degree of the quality, truncated
+std::vector<std::string> unresolvedPeaks(const physics::Medium& medium, const physics::Optics& optics);
+
 /// `options` with their quality picked, where they ask for that. Tells `progress` what and why.
 Options settled(Options options, const physics::Medium& medium, Progress& progress);
 

@@ -149,6 +149,10 @@ void solve(const atmo::Description& description, const Options& asked, gl::Headl
                                                physics::sunsetShare(profile, physics::largestExtinctions(optics), medium.sunAngularRadius));
     const BakeJob job{description, options, scene, quality.bake, sunAxis, description.scatteringSize};
     model::describeOptics(manifest, optics, quality.moments.truncatePeaks);
+    for (const auto& sentence : unresolvedPeaks(medium, optics)) {
+        manifest.warnings.push_back(sentence);
+        progress.warning(sentence);
+    }
 
     // 3. The radiation field: moments of every event, summed.
     RadiationField field;

@@ -72,6 +72,26 @@ TEST_CASE("quality: the kind of air follows from optical depth and peaks")
     CHECK(airOf(vacuum) == Air::Clear);
 }
 
+TEST_CASE("quality: scatterers of which no quality resolves the peak are named, where dense air consists of them")
+{
+    const auto sentences = [](const physics::Medium& medium) {
+        return unresolvedPeaks(medium, physics::makeOptics(medium, qualityFor("normal", medium).moments.degree, true));
+    };
+    const auto withPeak = [](physics::Medium medium, double g) {
+        for (std::size_t k = 0; k < medium.scatteringAngles.size(); ++k)
+            for (int w = 0; w < medium.wavelengthCount(); ++w)
+                medium.species[1].phaseFunction[k * medium.wavelengthCount() + w] = henyeyGreenstein(g, medium.scatteringAngles[k]);
+        return medium;
+    };
+    for (const auto& medium : oneOfEachKind())
+        CHECK(sentences(medium).empty());
+    const auto narrow = sentences(withPeak(cloud(10), 0.99));
+    REQUIRE(narrow.size() == 1);
+    CHECK_THAT(narrow.front(), Catch::StartsWith("Scatterer `" + cloud(10).species[1].name + "` throws 8"));
+    CHECK(sentences(withPeak(cloud(10), 0.9)).empty());
+    CHECK(sentences(withPeak(cloud(0.1), 0.99)).empty()); // thin
+}
+
 TEST_CASE("quality: each point of the front takes longer than the one before it, and computes more finely")
 {
     const auto air = sampleEarth(Aerosol::Yes);
