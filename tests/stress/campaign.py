@@ -98,7 +98,8 @@ def rms_of(rows):
     """Relative error of rows (error, noise), the noise of the judge removed, and what that leaves uncertain."""
     errors, noise = (np.array(part) for part in zip(*rows))
     rms = math.sqrt(max(0.0, float(np.mean(errors**2 - noise**2))))
-    return rms, math.sqrt(float(np.sum(4 * errors**2 * noise**2 + 2 * noise**4))) / len(rows) / max(2 * rms, 1e-9)
+    of_square = math.sqrt(float(np.sum(4 * errors**2 * noise**2 + 2 * noise**4))) / len(rows)
+    return rms, of_square / (2 * rms) if rms**2 > of_square else math.sqrt(of_square)
 
 
 def sees_ground(facts, row):
