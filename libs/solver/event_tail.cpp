@@ -15,6 +15,9 @@ constexpr double leastLeft = 0.1;
 constexpr double leastGain = 0.7;
 /// Sweeps before that is asked of all together: light first comes to where layers had told of none.
 constexpr int firstSweeps = 15;
+/// Largest I_00 per unit solar irradiance. Deep in air that absorbs nothing, under a Sun in the zenith, the mean radiance is sqrt(3) H(1) / (4 pi)
+/// = 0.40 (Chandrasekhar 1960, Radiative Transfer, ch. III and V), and nowhere is there more; times sqrt(4 pi), and half as much again.
+constexpr double brightest = 2.1;
 /// Of the trust in layers that is left where they were wrong.
 constexpr double lessTrust = 0.3;
 
@@ -51,6 +54,7 @@ void EventTail::improve(const Sums& next, const Sums& earlier, const LayeredLigh
     const double least = faintest * *std::max_element(then.begin(), then.end());
     judge(missing, least);
     add(missing, layers, least);
+    bound(earlier);
     before_ = change_;
     change_ = relativeChange(means(), then);
     if (change_ < least_) // no number is no gain
@@ -122,8 +126,40 @@ void EventTail::add(const Sums& fresh, const LayeredLight& layers, const double 
     });
 }
 
+void EventTail::bound(const Sums& earlier)
+{
+    const std::size_t perPoint = std::size_t(harmonics_) * wavelengths_, levels = light_.moments.size() / perPoint / suns_;
+    bounded_ = false;
+    for (int sun = 0; sun < suns_; ++sun)
+        for (int w = 0; w < wavelengths_; ++w) {
+            double part = 1;
+            for (std::size_t level = 0; level < levels; ++level) {
+                const std::size_t at = (level * suns_ + sun) * perPoint + w;
+                const double room = std::max(0., brightest - earlier.moments[at]), light = light_.moments[at];
+                if (!(light <= room))
+                    part = std::isfinite(light) ? std::min(part, room / light) : 0;
+            }
+            if (part == 1)
+                continue;
+            bounded_ = true;
+            trust_[std::size_t(sun) * wavelengths_ + w] *= lessTrust;
+            for (std::size_t level = 0; level < levels; ++level) {
+                const std::size_t point = level * suns_ + sun;
+                for (int lm = 0; lm < harmonics_; ++lm) {
+                    double& light = light_.moments[point * perPoint + std::size_t(lm) * wavelengths_ + w];
+                    light = part > 0 ? part * light : event_.moments[point * perPoint + std::size_t(lm) * wavelengths_ + w];
+                }
+                double& irradiance = light_.irradiance[point * wavelengths_ + w];
+                irradiance = part > 0 ? part * irradiance : event_.irradiance[point * wavelengths_ + w];
+            }
+        }
+}
+
 bool EventTail::stalls() const { return least_ > std::pow(leastGain, sweeps_ - firstSweeps); }
 
-double EventTail::remainder() const { return remainderAfter(change_, change_ / std::max(before_, 1e-300)); }
+double EventTail::remainder() const
+{
+    return bounded_ ? std::numeric_limits<double>::infinity() : remainderAfter(change_, change_ / std::max(before_, 1e-300));
+}
 
 } // namespace sky::solver

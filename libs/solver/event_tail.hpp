@@ -35,11 +35,16 @@ private:
     ///   least  of I_00; less is only added
     void add(const Sums& fresh, const LayeredLight& layers, double least);
 
+    /// Takes away what no air can hold. Light that spreads to the side, as in a gap above white ground, layers keep where it is: without a bound it
+    /// grows from sweep to sweep, up to infinity.
+    void bound(const Sums& earlier);
+
     const Sums& event_;
     int suns_, wavelengths_, harmonics_;
     Sums light_;
     double change_ = 1, before_ = 1, least_ = 1;
     int sweeps_ = 0;
+    bool bounded_ = false; ///< whether the last sweep left more light than there can be
     /// [sun][wavelength]: how far layers are followed, 0..1; less where they told wrong, as in twilight, where light comes from beside.
     std::vector<double> trust_;
     std::vector<double> wrong_; // [sun][wavelength]: by how much its light was wrong at the last sweep, rms of its part

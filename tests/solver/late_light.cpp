@@ -5,6 +5,7 @@
 #include "small_world.hpp"
 #include "solver/event_tail.hpp"
 #include <cmath>
+#include <limits>
 
 using namespace sky;
 using test::SmallWorld;
@@ -126,7 +127,7 @@ TEST_CASE("event tail: where nothing is known of what follows, it is the series 
 {
     const auto layers = noLayers(3);
     for (const double part : {0.3, 0.6}) {
-        const solver::Sums event = lightOf({1, 2, 0.5}), earlier = lightOf({3, 1, 1});
+        const solver::Sums event = lightOf({0.1, 0.2, 0.05}), earlier = lightOf({0.3, 0.1, 0.1}); // per unit solar irradiance
         solver::EventTail tail(event, layers, 1);
         for (int n = 1; n <= 8; ++n) {
             tail.improve(times(tail.light(), part), earlier, layers);
@@ -150,7 +151,7 @@ TEST_CASE("event tail: changes that hardly fall are no way to an end")
 {
     const auto layers = noLayers(3);
     for (const double part : {0.98, 1., 1.05}) {
-        const solver::Sums event = lightOf({1, 2, 0.5}), earlier = lightOf({0, 0, 0});
+        const solver::Sums event = lightOf({1e-3, 2e-3, 5e-4}), earlier = lightOf({0, 0, 0});
         solver::EventTail tail(event, layers, 1);
         int sweeps = 0;
         while (!tail.stalls() && sweeps < 40) {
@@ -160,6 +161,24 @@ TEST_CASE("event tail: changes that hardly fall are no way to an end")
         INFO("part " << part << " sweeps " << sweeps);
         CHECK(sweeps < 30);
         CHECK(tail.remainder() > 0.8 * std::min(1., std::pow(part, sweeps + 1))); // of all light, the part after so many
+    }
+}
+
+TEST_CASE("event tail: more light than deep air under the zenith holds is none, and of such light nothing is told")
+{
+    const auto layers = noLayers(3);
+    const solver::Sums event = lightOf({0.1, 0.2, 0.05}), earlier = lightOf({0.3, 0.1, 0.1});
+    for (const double growth : {30., 1e300, std::numeric_limits<double>::infinity()}) {
+        solver::EventTail tail(event, layers, 1);
+        for (int sweep = 0; sweep < 5; ++sweep)
+            tail.improve(times(tail.light(), growth), earlier, layers);
+        INFO("growth " << growth);
+        for (int i = 0; i < 3; ++i) {
+            CHECK(tail.light().moments[i] > 0);
+            CHECK(earlier.moments[i] + tail.light().moments[i] < 0.6 * std::sqrt(4 * test::pi)); // mean radiance by the Sun's irradiance
+            CHECK(std::isfinite(tail.light().irradiance[i]));
+        }
+        CHECK_FALSE(tail.remainder() < 1e9);
     }
 }
 
