@@ -29,7 +29,8 @@ constexpr double sharpMoment = 0.2;
 /// cut too, make light from nothing: 10 % in air 3 deep of g = -0.8 that absorbs nothing, over white ground.
 constexpr double sharpBackward = 0.1;
 
-/// From this moment of that degree on (g = 0.89 forward or backward) the series is also fitted beyond the peak. Of gentler peaks the ripples are no larger than the light.
+/// From this moment of that degree on (g = 0.89 forward or backward) the series is also fitted beyond the peak. Of gentler peaks the ripples
+/// are no larger than the light.
 constexpr double fittedMoment = 0.4;
 
 /// Factor of the Legendre moment l, where a sharp series is let fade to its end. With a power of 1 it is a Gaussian, which has no ripples at

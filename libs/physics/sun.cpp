@@ -37,21 +37,28 @@ constexpr double usualScale = 0.03;
 
 double axisLength(double scale, double range) { return std::asinh(range / scale); }
 
+/// Optical depths from an altitude to space, [wavelength]; less where all have passed `deepest`.
+///   columns  scratch memory, [species]
+void depthsToSpace(RayTracer& tracer, const Optics& optics, double altitude, double mu, double deepest, std::vector<double>& columns,
+                   double* const result)
+{
+    columns.resize(optics.species);
+    tracer.columns(altitude, mu, columns.data(), deepest);
+    for (int w = 0; w < optics.wavelengths; ++w) {
+        result[w] = 0;
+        for (int s = 0; s < optics.species; ++s)
+            result[w] += columns[s] * optics.extinction[s * optics.wavelengths + w];
+    }
+}
+
 /// SunTable::sunlessAltitude. Air below, opaque too, may be clearer than above it: a horizontal ray from there meets the latter more steeply.
 double findSunlessAltitude(const Profile& profile, const Optics& optics)
 {
     RayTracer tracer(profile, optics, 2);
-    std::vector<double> columns(optics.species);
+    std::vector<double> columns, depths(optics.wavelengths);
     const auto isSunless = [&](double altitude) {
-        tracer.columns(altitude, 0, columns.data(), sunlessDepth);
-        double least = std::numeric_limits<double>::infinity();
-        for (int w = 0; w < optics.wavelengths; ++w) {
-            double depth = 0;
-            for (int s = 0; s < optics.species; ++s)
-                depth += columns[s] * optics.extinction[s * optics.wavelengths + w];
-            least = std::min(least, depth);
-        }
-        return least >= sunlessDepth;
+        depthsToSpace(tracer, optics, altitude, 0, sunlessDepth, columns, depths.data());
+        return std::all_of(depths.begin(), depths.end(), [](double depth) { return depth >= sunlessDepth; });
     };
     const auto& shells = profile.shells();
     const auto lit = std::find_if_not(shells.begin(), shells.end(), isSunless);
@@ -197,14 +204,10 @@ SunTable::SunTable(const Profile& profile, const Optics& optics, const double su
     for (const double h : altitudes_)
         measures_.push_back(horizonDistance(planet_, h));
     const auto depthsOf = [&](RayTracer& tracer, double altitude, double elevation, double* result) {
-        std::vector<double> columns(optics.species);
-        tracer.columns(altitude, std::sin(std::min(pi / 2, elevation)), columns.data(), opaque);
-        for (int w = 0; w < wavelengths_; ++w) {
-            double tau = 0;
-            for (int s = 0; s < optics.species; ++s)
-                tau += columns[s] * optics.extinction[s * wavelengths_ + w];
-            result[w] = std::min(tau, opaque);
-        }
+        std::vector<double> columns;
+        depthsToSpace(tracer, optics, altitude, std::sin(std::min(pi / 2, elevation)), opaque, columns, result);
+        for (int w = 0; w < wavelengths_; ++w)
+            result[w] = std::min(result[w], opaque);
     };
     // Near the horizon the transmittance changes by factors over the disc, higher up it is linear: two points with the disc's second moment (a quarter
     // of the radius squared) serve, and further up the centre alone.
@@ -340,19 +343,15 @@ void sunOnSurface(const Profile& profile, const Optics& optics, const double sun
     const double lowest = point ? 0 : std::acos(std::clamp(-elevation / sunAngularRadius, -1., 1.));
     const auto rule = gaussLegendre(heights, 0, lowest);
     RayTracer tracer(profile, optics, 2);
-    std::vector<double> columns(optics.species);
+    std::vector<double> columns, depths(optics.wavelengths);
     for (int i = 0; i < heights; ++i) {
         const double t = rule.nodes[i], sine = std::sin(point ? elevation : elevation + sunAngularRadius * std::cos(t));
         if (!(sine > 0))
             continue;
         const double weight = point ? sine : rule.weights[i] * 2 / pi * std::sin(t) * std::sin(t) * sine;
-        tracer.columns(altitude, sine, columns.data());
-        for (int w = 0; w < optics.wavelengths; ++w) {
-            double tau = 0;
-            for (int s = 0; s < optics.species; ++s)
-                tau += columns[s] * optics.extinction[s * optics.wavelengths + w];
-            result[w] += weight * std::exp(-tau);
-        }
+        depthsToSpace(tracer, optics, altitude, sine, std::numeric_limits<double>::infinity(), columns, depths.data());
+        for (int w = 0; w < optics.wavelengths; ++w)
+            result[w] += weight * std::exp(-depths[w]);
     }
 }
 

@@ -257,7 +257,8 @@ std::vector<std::string> unresolvedPeaks(const physics::Medium& medium, const ph
 {
     constexpr double mostOfIt = 0.75; // truncated; of a cloud's droplets of g = 0.9 it is 0.16
     std::vector<std::string> sentences;
-    if (!(scatteringDepth(medium) > thick))
+    const double all = scatteringDepth(medium);
+    if (!(all > thick))
         return sentences;
     const int wavelengths = medium.wavelengthCount();
     for (const int s : optics.scatterers) {
@@ -265,7 +266,7 @@ std::vector<std::string> unresolvedPeaks(const physics::Medium& medium, const ph
         const double mine = std::accumulate(depths.begin(), depths.end(), 0.) / wavelengths;
         const auto first = optics.truncation.begin() + s * wavelengths;
         const double truncated = *std::max_element(first, first + wavelengths);
-        if (truncated > mostOfIt && mine > 0.5 * scatteringDepth(medium))
+        if (truncated > mostOfIt && mine > 0.5 * all)
             sentences.push_back(
                 "Scatterer `" + medium.species[s].name + "` throws " + percent(truncated) +
                 " of its light into a peak that is too narrow for this quality, and taken as if it went straight on: what such "

@@ -149,10 +149,12 @@ void solve(const atmo::Description& description, const Options& asked, gl::Headl
                                                physics::sunsetShare(profile, physics::largestExtinctions(optics), medium.sunAngularRadius));
     const BakeJob job{description, options, scene, quality.bake, sunAxis, description.scatteringSize};
     model::describeOptics(manifest, optics, quality.moments.truncatePeaks);
-    for (const auto& sentence : unresolvedPeaks(medium, optics)) {
+    const auto warn = [&](const std::string& sentence) {
         manifest.warnings.push_back(sentence);
         progress.warning(sentence);
-    }
+    };
+    for (const auto& sentence : unresolvedPeaks(medium, optics))
+        warn(sentence);
 
     // 3. The radiation field: moments of every event, summed.
     RadiationField field;
@@ -163,10 +165,8 @@ void solve(const atmo::Description& description, const Options& asked, gl::Headl
         manifest.settings["moments.events"] = std::to_string(field.eventCount);
         if (limit.all || options.tolerance)
             manifest.estimatedError["orders left out"] = field.remainder;
-        if (!field.ended) {
-            manifest.warnings.push_back(notEnded(field));
-            progress.warning(manifest.warnings.back());
-        }
+        if (!field.ended)
+            warn(notEnded(field));
         if (needs.moments)
             model::writeMoments(writer, "moments", field.total);
     }
