@@ -25,8 +25,9 @@ class SkyFromMoments : public SkyOfModel
 {
 public:
     SkyFromMoments(const physics::Medium& medium, const physics::Optics& optics, std::optional<physics::Moments> moments)
-        : medium_(medium), profile_(medium_), optics_(optics), sun_(profile_, optics_, medium_.sunAngularRadius, 192, 256),
-          sky_(medium_, profile_, optics_, sun_), tracer_(profile_, optics_), moments_(std::move(moments))
+        : medium_(medium), profile_(medium_), optics_(optics), aureole_(medium_, optics_),
+          sun_(profile_, optics_, medium_.sunAngularRadius, 192, 256), sky_(medium_, profile_, optics_, sun_, &aureole_),
+          tracer_(profile_, optics_), moments_(std::move(moments))
     {
     }
 
@@ -50,6 +51,7 @@ private:
     physics::Medium medium_;
     physics::Profile profile_;
     physics::Optics optics_;
+    physics::Aureole aureole_;
     physics::SunTable sun_;
     physics::SkyEvaluator sky_;
     physics::RayTracer tracer_;
@@ -60,11 +62,13 @@ private:
 class SkyFromTextures : public SkyOfModel
 {
 public:
-    explicit SkyFromTextures(const Model& model) : medium_(readMedium(model))
+    explicit SkyFromTextures(const Model& model)
+        : medium_(readMedium(model)), profile_(medium_), optics_(readOptics(model, medium_)), aureole_(medium_, optics_),
+          tracer_(profile_, optics_)
     {
-        for (const auto& species : medium_.species)
-            if (species.scatters() && model.hasTable("single-scattering/" + species.name))
-                single_.push_back({&species, ScatteringTable(model, "single-scattering/" + species.name)});
+        for (std::size_t s = 0; s < medium_.species.size(); ++s)
+            if (const auto& name = medium_.species[s].name; medium_.species[s].scatters() && model.hasTable("single-scattering/" + name))
+                single_.push_back({static_cast<int>(s), ScatteringTable(model, "single-scattering/" + name)});
         if (!scattersOnceAtMost(model.manifest()))
             multiple_.emplace(model, "multiple-scattering");
         for (const auto& part : single_)
@@ -85,10 +89,13 @@ public:
             for (std::size_t w = 0; w < wavelengths; ++w)
                 to[w] += value[w] * phase[w] / medium_.solarIrradiance[w];
         };
-        for (const auto& [species, table] : single_) {
+        const auto peakDepths = aureole_.depths(tracer_, g.altitude, std::cos(g.sunZenithAngle));
+        for (const auto& [s, table] : single_) {
             std::fill(phase.begin(), phase.end(), 1.);
-            if (!species->smooth) // tables of smooth phase functions hold them already
-                physics::phaseFunctionAt(medium_, *species, scatteringAngle, phase.data());
+            if (const auto& species = medium_.species[s]; !species.smooth) { // tables of smooth phase functions hold them already
+                physics::phaseFunctionAt(medium_, species, scatteringAngle, phase.data());
+                aureole_.multiply(s, scatteringAngle, peakDepths, phase.data());
+            }
             add(table, result.single);
         }
         std::fill(phase.begin(), phase.end(), 1.);
@@ -99,7 +106,7 @@ public:
 
 private:
     struct Single {
-        const physics::Species* species;
+        int species;
         ScatteringTable table;
     };
 
@@ -111,6 +118,10 @@ private:
     }
 
     physics::Medium medium_;
+    physics::Profile profile_;
+    physics::Optics optics_;
+    physics::Aureole aureole_;
+    physics::RayTracer tracer_;
     std::vector<Single> single_;
     std::optional<ScatteringTable> multiple_;
 };

@@ -9,13 +9,14 @@ namespace sky::physics {
 
 using base::pi;
 
-SkyEvaluator::SkyEvaluator(const Medium& medium, const Profile& profile, const Optics& optics, const SunTable& sun)
-    : medium_(medium), profile_(profile), optics_(optics), sun_(sun)
+SkyEvaluator::SkyEvaluator(const Medium& medium, const Profile& profile, const Optics& optics, const SunTable& sun,
+                           const Aureole* const aureole)
+    : medium_(medium), profile_(profile), optics_(optics), sun_(sun), aureole_(aureole)
 {
 }
 
 void SkyEvaluator::singleAlong(const RayNodes& ray, const double muSun, const double nu, const bool exactPhase, double* const result,
-                               const std::vector<MiddleOfLight>& middles) const
+                               const std::vector<MiddleOfLight>& middles, const std::vector<double>& peakDepths) const
 {
     const int wavelengths = optics_.wavelengths, scatterers = static_cast<int>(optics_.scatterers.size());
     std::vector<double> lit(scatterers * wavelengths, 0.), transmittance(wavelengths), phase(wavelengths);
@@ -47,7 +48,10 @@ void SkyEvaluator::singleAlong(const RayNodes& ray, const double muSun, const do
         const int s = optics_.scatterers[i];
         if (exactPhase) {
             const double middle = whole[i] > 0 ? nu + aside[i] / whole[i] : nu;
-            phaseFunctionAt(medium_, medium_.species[s], std::acos(std::clamp(middle, -1., 1.)), phase.data());
+            const double angle = std::acos(std::clamp(middle, -1., 1.));
+            phaseFunctionAt(medium_, medium_.species[s], angle, phase.data());
+            if (aureole_)
+                aureole_->multiply(s, angle, peakDepths, phase.data());
             for (int w = 0; w < wavelengths; ++w)
                 phase[w] /= 1 - optics_.truncation[s * wavelengths + w];
         } else {
@@ -100,7 +104,8 @@ void SkyEvaluator::radiance(RayTracer& tracer, const Moments* const moments, con
     std::fill(result, result + optics_.wavelengths, 0.);
     const bool ground = hitsGround(profile_.planet(), altitude, mu);
     if (parts.single)
-        singleAlong(tracer.trace(altitude, mu, parts.singleNodes, ground), muSun, nu, parts.exactPhase, result);
+        singleAlong(tracer.trace(altitude, mu, parts.singleNodes, ground), muSun, nu, parts.exactPhase, result, {},
+                    aureole_ && parts.exactPhase ? aureole_->depths(tracer, altitude, muSun) : std::vector<double>{});
     if (parts.multiple && moments)
         multipleAlong(tracer.trace(altitude, mu, parts.multipleNodes, ground, NodesFor::Field), *moments, muSun, nu, result);
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include "physics/aureole.hpp"
 #include "physics/moments.hpp"
 #include "physics/ray.hpp"
 #include "physics/sun.hpp"
@@ -23,7 +24,8 @@ public:
         int multipleNodes = 24;
         bool exactPhase = true; ///< false: phase functions truncated at the degree, as inside the iteration
     };
-    SkyEvaluator(const Medium& medium, const Profile& profile, const Optics& optics, const SunTable& sun);
+    ///   aureole  for exact phase functions of truncated peaks; null: as if they scattered once at most
+    SkyEvaluator(const Medium& medium, const Profile& profile, const Optics& optics, const SunTable& sun, const Aureole* aureole = nullptr);
 
     /// Light scattered into a ray.
     ///   moments   of the field that is scattered on; may be null where only single scattering is asked for
@@ -35,9 +37,10 @@ public:
     const SunTable& sun() const { return sun_; }
 
     /// Light scattered along given nodes of a ray: from direct sunlight, from the moments.
-    ///   middles  [node], where an eclipse leaves light; empty: everywhere in the middle of the disc
+    ///   middles     [node], where an eclipse leaves light; empty: everywhere in the middle of the disc
+    ///   peakDepths  of the camera's aureole (Aureole::depths), for exact phase functions
     void singleAlong(const RayNodes& ray, double muSun, double nu, bool exactPhase, double* result,
-                     const std::vector<MiddleOfLight>& middles = {}) const;
+                     const std::vector<MiddleOfLight>& middles = {}, const std::vector<double>& peakDepths = {}) const;
     void multipleAlong(const RayNodes& ray, const Moments& moments, double muSun, double nu, double* result) const;
 
 private:
@@ -45,6 +48,7 @@ private:
     const Profile& profile_;
     const Optics& optics_;
     const SunTable& sun_;
+    const Aureole* const aureole_;
 };
 
 } // namespace sky::physics

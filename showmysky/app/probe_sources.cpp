@@ -7,7 +7,7 @@
 #include "model/medium_tables.hpp"
 #include "model/moment_tables.hpp"
 #include "model/scattering_table.hpp"
-#include "physics/geometry.hpp"
+#include "physics/aureole.hpp"
 #include "physics/harmonics.hpp"
 #include <algorithm>
 #include <cmath>
@@ -52,8 +52,8 @@ class TextureSource : public ProbeSource
 {
 public:
     TextureSource(const std::string& directory, bool eclipseTable)
-        : model_(sky::model::Model::open(directory)),
-          medium_(sky::model::readMedium(model_)), planet_{medium_.planetRadius, medium_.topOfAtmosphere}, photometer_(directory)
+        : model_(sky::model::Model::open(directory)), medium_(sky::model::readMedium(model_)), profile_(medium_),
+          optics_(sky::model::readOptics(model_, medium_)), aureole_(medium_, optics_), tracer_(profile_, optics_), photometer_(directory)
     {
         spectral_ = true;
         for (const auto& species : medium_.species)
@@ -86,8 +86,8 @@ public:
             throw sky::UsageError(
                 "These textures hold no eclipses; leave the Moon's columns out, use --source moments, or ask for the table "
                 "of eclipses by --precomputed-eclipse.");
-        if (view.altitude > planet_.topOfAtmosphere)
-            throw sky::UsageError("The textures end at the top of the atmosphere, " + std::to_string(planet_.topOfAtmosphere) +
+        if (view.altitude > medium_.topOfAtmosphere)
+            throw sky::UsageError("The textures end at the top of the atmosphere, " + std::to_string(medium_.topOfAtmosphere) +
                                   " m; use --source moments for views from above.");
         std::vector<double> spectrum(medium_.wavelengthCount(), 0.), xyz(4, 0.);
         if (moon)
@@ -152,8 +152,7 @@ private:
             sum[i] += value[i];
     }
 
-    void add(Part& part, const Photometer::View& view, double scatteringAngle, std::vector<double>& spectrum,
-             std::vector<double>& xyz) const
+    void add(Part& part, const Photometer::View& view, double scatteringAngle, std::vector<double>& spectrum, std::vector<double>& xyz)
     {
         const double sun = pi / 2 - view.sunZenithAngle;
         if (part.altitude != view.altitude || part.sun != sun) {
@@ -164,17 +163,23 @@ private:
         const bool luminance = part.table.table().channels == sky::model::Channels::Luminance;
         std::vector<double> value(luminance ? 4 : spectrum.size()), phase(spectrum.size(), 1.);
         part.table.sample(part.slice, view.altitude, pi / 2 - view.viewZenithAngle, view.viewAzimuth - view.sunAzimuth, value.data());
-        // Tables of smooth phase functions hold them already; a table of luminance has one for all wavelengths.
-        if (part.species && !part.species->smooth)
+        // Tables of smooth phase functions hold them already; a table of luminance has one for all wavelengths, that of the middle.
+        if (part.species && !part.species->smooth) {
             sky::physics::phaseFunctionAt(medium_, *part.species, scatteringAngle, phase.data());
+            aureole_.multiply(static_cast<int>(part.species - medium_.species.data()), scatteringAngle,
+                              aureole_.depths(tracer_, view.altitude, std::cos(view.sunZenithAngle)), phase.data());
+        }
         auto& sum = luminance ? xyz : spectrum;
         for (std::size_t i = 0; i < value.size(); ++i)
-            sum[i] += value[i] * phase[luminance ? 0 : i];
+            sum[i] += value[i] * phase[luminance ? phase.size() / 2 : i];
     }
 
     sky::model::Model model_;
     sky::physics::Medium medium_;
-    sky::physics::Planet planet_;
+    sky::physics::Profile profile_;
+    sky::physics::Optics optics_;
+    sky::physics::Aureole aureole_;
+    sky::physics::RayTracer tracer_;
     Photometer photometer_;
     std::vector<Part> single_;
     std::optional<Part> multiple_, eclipsed_;

@@ -8,7 +8,7 @@ namespace showmysky {
 
 Atmosphere::Atmosphere(const std::string& directory)
     : model(sky::model::Model::open(directory)), medium(sky::model::readMedium(model)), profile(medium),
-      optics(sky::model::readOptics(model, medium))
+      optics(sky::model::readOptics(model, medium)), aureole(medium, optics)
 {
 }
 

@@ -2,6 +2,7 @@
 // A model as the renderer holds it: the medium with what follows from it.
 
 #include "model/model.hpp"
+#include "physics/aureole.hpp"
 #include "physics/moments.hpp"
 #include "physics/optics.hpp"
 #include "physics/profile.hpp"
@@ -20,6 +21,7 @@ struct Atmosphere {
     sky::physics::Medium medium;
     sky::physics::Profile profile;
     sky::physics::Optics optics;
+    sky::physics::Aureole aureole;
 
     int wavelengths() const { return medium.wavelengthCount(); }
     int scatterers() const { return static_cast<int>(optics.scatterers.size()); }

@@ -84,7 +84,7 @@ Painter::Painter(const gl::Api& api, int scatterers, const std::vector<Texel>& p
       direction_(api, "direction of a pixel", formatOf(half_), 1, 1), target_(api, "luminance"),
       directionTarget_(api, "direction of a pixel")
 {
-    phases_.upload(flat(phases));
+    setPhases(phases);
     directionTarget_.attach(0, direction_);
     light_["phaseWidth"] = static_cast<float>(phaseWidth);
     set("largest", half_ ? 65504.f : 3e38f);
@@ -114,6 +114,8 @@ void Painter::setLight(const std::string& name, const UniformValue& value)
     light_[name] = value;
     apply(program_, name, value);
 }
+
+void Painter::setPhases(const std::vector<Texel>& phases) { phases_.upload(flat(phases)); }
 
 void Painter::setSky(const SkyView& view, const SceneGeometry& geometry)
 {

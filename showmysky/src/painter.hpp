@@ -38,6 +38,8 @@ public:
     Painter(const sky::gl::Api& api, int scatterers, const std::vector<Texel>& phases, const Options& options);
     static constexpr int phaseWidth = 2048;
 
+    /// Others of as many scatterers.
+    void setPhases(const std::vector<Texel>& phases);
     void setSky(const SkyView& view, const SceneGeometry& geometry);
     void setCities(const CityLight& light);
     void draw(const Camera& camera, int width, int height, int reduction);

@@ -26,10 +26,21 @@ Phases::Phases(const Atmosphere& atmosphere) : atmosphere_(atmosphere)
     }
 }
 
+void Phases::look(const double altitude, const double muSun)
+{
+    if (!atmosphere_.aureole.any())
+        return;
+    sky::physics::RayTracer tracer(atmosphere_.profile, atmosphere_.optics, 2);
+    auto depths = atmosphere_.aureole.depths(tracer, altitude, muSun);
+    version_ += depths != peakDepths_;
+    peakDepths_ = std::move(depths);
+}
+
 void Phases::exact(int scatterer, double theta, double* result) const
 {
     const auto species = static_cast<std::size_t>(atmosphere_.optics.scatterers[static_cast<std::size_t>(scatterer)]);
     sky::physics::phaseFunctionAt(atmosphere_.medium, atmosphere_.medium.species[species], theta, result);
+    atmosphere_.aureole.multiply(static_cast<int>(species), theta, peakDepths_, result);
 }
 
 double Phases::drawn(int scatterer, double nu) const

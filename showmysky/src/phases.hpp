@@ -12,6 +12,11 @@ class Phases
 public:
     explicit Phases(const Atmosphere& atmosphere);
 
+    /// Looks from a camera at this altitude (m) to the Sun: beside it, peaks are the aureole that is seen from there.
+    void look(double altitude, double muSun);
+    /// Counts changes of the functions drawn.
+    int version() const { return version_; }
+
     /// Phase function drawn for a scatterer, sr^-1: mean over the wavelengths by their share in daylight's luminance,
     /// at cos(scattering angle) `nu`. What truncation took from it (physics::Optics) is in the tables.
     double drawn(int scatterer, double nu) const;
@@ -27,6 +32,8 @@ private:
     void exact(int scatterer, double theta, double* result) const;
 
     const Atmosphere& atmosphere_;
+    std::vector<double> peakDepths_; ///< physics::Aureole::depths
+    int version_ = 0;
     std::vector<double> shares_;                      ///< [wavelength], sum 1
     std::vector<std::vector<double>> constantRatios_; ///< [scatterer]: of the achromatic ones; others empty
 };

@@ -81,7 +81,7 @@ struct Photometer::Inside {
     };
 
     Inside(const std::string& directory, Method how)
-        : sky(directory), method(how), gather(sky.medium, sky.optics, sky.sun, sky.moments ? &*sky.moments : nullptr)
+        : sky(directory), method(how), gather(sky.medium, sky.optics, sky.sun, sky.moments ? &*sky.moments : nullptr, {}, &sky.aureole)
     {
         if (Glow::whyMissing(sky.model).empty())
             glow.emplace(sky.model, sky.medium);

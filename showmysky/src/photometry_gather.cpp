@@ -173,8 +173,9 @@ void interpolatePhase(const Block* low, const Block* high, float x, bool logarit
 
 // Opposite to a sharp peak the degrees nearly cancel: what is taken as straight there was 70 % of the light.
 FastGather::FastGather(const physics::Medium& medium, const physics::Optics& optics, const physics::SunTable& sun,
-                       const physics::Moments* moments, const Effort& effort)
-    : sun_(sun), moments_(moments), planet_{medium.planetRadius, medium.topOfAtmosphere},
+                       const physics::Moments* moments, const Effort& effort, const physics::Aureole* aureole)
+    : optics_(optics), sun_(sun), moments_(moments),
+      aureole_(aureole && aureole->any() ? aureole : nullptr), planet_{medium.planetRadius, medium.topOfAtmosphere},
       profile_(physics::Profile(medium, effort.profileTolerance).withShellsUnderEdges()), folder_(profile_, optics, effort),
       wavelengths_(optics.wavelengths), blocks_(folder_.blocks()), scatterers_(folder_.scatterers()), degree_(optics.degree),
       bentDegree_(physics::truncates(optics) ? optics.degree : physics::bentDegree(optics)), sunRadius_(medium.sunAngularRadius),
@@ -249,6 +250,30 @@ void FastGather::exactPhase(const double nu, FastScratch& scratch) const
                          blocks_, &scratch.phase[i * blocks_]);
 }
 
+void FastGather::findPeaks(const double altitude, const double muSun, FastScratch& scratch) const
+{
+    auto& peaks = scratch.peaks;
+    if (peaks.altitude == altitude && peaks.muSun == muSun)
+        return;
+    if (!peaks.tracer)
+        peaks.tracer.emplace(profile_, optics_, 2);
+    peaks.depths = aureole_->depths(*peaks.tracer, altitude, muSun);
+    peaks.altitude = altitude;
+    peaks.muSun = muSun;
+}
+
+void FastGather::addAureole(const double nu, FastScratch& scratch) const
+{
+    const double angle = std::acos(std::clamp(nu, -1., 1.));
+    auto& factors = scratch.peaks.factors;
+    for (int i = 0; i < scatterers_; ++i) {
+        factors.assign(wavelengths_, 1.);
+        aureole_->multiply(optics_.scatterers[i], angle, scratch.peaks.depths, factors.data());
+        for (int w = 0; w < wavelengths_; ++w)
+            scratch.phase[i * blocks_ + w / count].v[w % count] *= static_cast<float>(factors[w]);
+    }
+}
+
 void FastGather::truncatedPhase(const double nu, FastScratch& scratch) const
 {
     std::vector<double> polynomials(degree_ + 1);
@@ -287,10 +312,13 @@ void FastGather::gatherSingle(FastScratch& scratch, const double muSun, const do
                     scratch.lit.data());
     }
     scratch.phase.resize(scatterers_ * blocks_, Block{all(0)});
-    if (exact)
+    if (exact) {
         exactPhase(nu, scratch);
-    else
+        if (aureole_)
+            addAureole(nu, scratch);
+    } else {
         truncatedPhase(nu, scratch);
+    }
     for (int i = 0; i < scatterers_; ++i)
         for (int b = 0; b < blocks_; ++b)
             scratch.sum[b].v += scratch.lit[i * blocks_ + b].v * scratch.phase[i * blocks_ + b].v;
@@ -332,6 +360,8 @@ void FastGather::radiance(FastScratch& scratch, const double altitude, const dou
     prepare(scratch);
     scratch.sum.assign(blocks_, Block{all(0)});
     const bool scatters = scatterers_ > 0; // smoke has no phase functions to be asked
+    if (parts.single && scatters && parts.exactPhase && aureole_)
+        findPeaks(altitude, muSun, scratch);
     if (parts.single && scatters)
         gatherSingle(scratch, muSun, nu, parts.exactPhase);
     if (parts.multiple && moments_ && scatters)

@@ -2,8 +2,10 @@
 // Light gathered along a ray in single precision: the fast twin of physics::SkyEvaluator.
 
 #include "photometry_ray.hpp"
+#include "physics/aureole.hpp"
 #include "physics/moments.hpp"
 #include "physics/sun.hpp"
+#include <optional>
 
 namespace showmysky {
 
@@ -28,6 +30,13 @@ struct FastScratch {
     lanes::Blocks lit;                        ///< [scatterer][block]
     lanes::Blocks phase, byDegree;            ///< [scatterer][block], [l][block]
     lanes::Blocks sum;                        ///< [block]
+    /// Of the last camera and Sun.
+    struct Peaks {
+        double altitude = -1, muSun = 0;
+        std::optional<sky::physics::RayTracer> tracer; ///< made where it is needed first
+        std::vector<double> depths;                    ///< Aureole::depths
+        std::vector<double> factors;                   ///< [wavelength]
+    } peaks;
 };
 
 /// Radiance per unit solar irradiance, sr^-1. Const functions are thread-safe, each with a scratch of its own.
@@ -39,8 +48,9 @@ public:
         bool exactPhase; ///< of single scattering; false: cut at the degree, which is smooth enough for hemispheres
     };
     /// \param moments  may be null: single scattering alone
+    /// \param aureole  see physics::SkyEvaluator
     FastGather(const sky::physics::Medium& medium, const sky::physics::Optics& optics, const sky::physics::SunTable& sun,
-               const sky::physics::Moments* moments, const Effort& effort = {});
+               const sky::physics::Moments* moments, const Effort& effort = {}, const sky::physics::Aureole* aureole = nullptr);
 
     /// Leaves the traced ray in the scratch.
     ///   altitude  0..top       nu  cosine of the angle between view and Sun
@@ -54,10 +64,14 @@ private:
     void gatherSingle(FastScratch& scratch, double muSun, double nu, bool exactPhase) const;
     void gatherMultiple(FastScratch& scratch, double muSun, double nu) const;
     void exactPhase(double nu, FastScratch& scratch) const;
+    void addAureole(double nu, FastScratch& scratch) const;
+    void findPeaks(double altitude, double muSun, FastScratch& scratch) const;
     void truncatedPhase(double nu, FastScratch& scratch) const;
 
+    const sky::physics::Optics& optics_;
     const sky::physics::SunTable& sun_;
     const sky::physics::Moments* moments_;
+    const sky::physics::Aureole* aureole_;
     sky::physics::Planet planet_;
     sky::physics::Profile profile_;
     RayFolder folder_;

@@ -9,8 +9,8 @@ namespace showmysky {
 
 PhotometryModel::PhotometryModel(const std::string& directory)
     : model(sky::model::Model::open(directory)), medium(sky::model::readMedium(model)), profile(medium),
-      optics(sky::model::readOptics(model, medium)), sun(profile, optics, medium.sunAngularRadius),
-      onceAtMost(sky::model::scattersOnceAtMost(model.manifest())), evaluator(medium, profile, optics, sun),
+      optics(sky::model::readOptics(model, medium)), aureole(medium, optics), sun(profile, optics, medium.sunAngularRadius),
+      onceAtMost(sky::model::scattersOnceAtMost(model.manifest())), evaluator(medium, profile, optics, sun, &aureole),
       luminanceWeights(sky::physics::luminanceWeights(medium.wavelengthsNm))
 {
     if (model.hasTable("moments")) {
@@ -19,7 +19,7 @@ PhotometryModel::PhotometryModel(const std::string& directory)
             throw sky::ModelError(directory + ": the moments are of degree " + std::to_string(moments->degree) +
                                   ", the setting \"moments.degree\" says " + std::to_string(optics.degree) + ".");
     }
-    if (std::any_of(optics.truncation.begin(), optics.truncation.end(), [](double f) { return f > 0; })) {
+    if (sky::physics::truncates(optics)) {
         trueOptics = sky::physics::makeOptics(medium, optics.degree, false);
         trueSun.emplace(profile, *trueOptics, medium.sunAngularRadius);
     }

@@ -20,7 +20,8 @@ struct PhotometryModel {
     sky::physics::Medium medium;
     sky::physics::Profile profile;
     sky::physics::Optics optics;                    ///< peaks truncated, as the moments were computed
-    sky::physics::SunTable sun;                     ///< through these optics
+    sky::physics::Aureole aureole;                  ///< of these optics
+    sky::physics::SunTable sun;                     ///< through them
     std::optional<sky::physics::Moments> moments;   ///< empty if the model has none
     bool onceAtMost;                                ///< no light is scattered twice: no moments are missing
     std::optional<sky::physics::Optics> trueOptics; ///< only where they differ: nothing truncated

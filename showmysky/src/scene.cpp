@@ -230,6 +230,7 @@ Progress Scene::step()
         followSunlight();
         return {false, 0.1, "Following rays"};
     }
+    phases_->look(settings_.altitude, std::cos(settings_.sun.zenithAngle));
     if (lightCities())
         return {false, 0.1, "Lighting cities"};
     const bool eclipse = settings_.eclipse == EclipseMode::on;

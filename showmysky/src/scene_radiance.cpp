@@ -40,7 +40,7 @@ std::vector<double> Scene::spectralRadiance(const std::array<double, 3>& directi
     const double nu = std::clamp(view[0] * sunDirection[0] + view[1] * sunDirection[1] + view[2] * sunDirection[2], -1., 1.);
     const LayersUsed layers = layersUsed();
     physics::RayTracer tracer(atmosphere_->profile, optics);
-    const physics::SkyEvaluator evaluator(medium, atmosphere_->profile, optics, *sun_);
+    const physics::SkyEvaluator evaluator(medium, atmosphere_->profile, optics, *sun_, &atmosphere_->aureole);
     physics::SkyEvaluator::Parts parts;
     // An eclipse has edges along the ray.
     const bool eclipse = settings_.eclipse == EclipseMode::on;
@@ -68,7 +68,7 @@ std::vector<double> Scene::spectralRadiance(const std::array<double, 3>& directi
             for (std::size_t w = 0; w < wavelengths; ++w)
                 ray.weights[(k * layers.single.size() + i) * wavelengths + w] *= visible[w];
     }
-    evaluator.singleAlong(ray, muSun, nu, true, result.data(), middles);
+    evaluator.singleAlong(ray, muSun, nu, true, result.data(), middles, atmosphere_->aureole.depths(tracer, settings_.altitude, muSun));
     if (layers.ground && ground) {
         const auto there = entry->node(ray.ground);
         const double muSunThere = std::clamp(there.sunScale * muSun + there.nuScale * nu, -1., 1.);

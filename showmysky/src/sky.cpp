@@ -87,6 +87,9 @@ struct Sky::Inside {
     {
         if (!scene.ready() || uploaded == scene.version())
             return;
+        if (phasesUploaded != scene.phases().version())
+            painter->setPhases(scene.phases().texels(Painter::phaseWidth));
+        phasesUploaded = scene.phases().version();
         painter->setSky(scene.view(), scene.geometry());
         painter->setCities(scene.cityLight());
         uploaded = scene.version();
@@ -125,6 +128,7 @@ struct Sky::Inside {
     int hostVersion = -1;                         ///< of the scene that they have
     Drawn drawn;
     int nextStep = 0;
+    int phasesUploaded = 0; ///< version that the painter has
     int uploaded = -1;
     bool loaded = false;
 };
