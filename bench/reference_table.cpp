@@ -2,6 +2,7 @@
 #include "base/angles.hpp"
 #include "base/error.hpp"
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 
@@ -11,6 +12,16 @@ namespace {
 using sky::base::degree;
 using sky::base::pi;
 constexpr double usableNoise = 0.05;
+
+/// std::stod throws at radiances below the smallest normal number, which opaque air has.
+double number(const std::string& text)
+{
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    if (end == text.c_str())
+        throw FileError("\"" + text + "\" is no number.");
+    return value;
+}
 } // namespace
 
 std::vector<ReferenceRow> readReference(const std::string& path)
@@ -28,10 +39,10 @@ std::vector<ReferenceRow> readReference(const std::string& path)
             c.push_back(cell);
         if (c.size() < 11)
             throw FileError("\"" + path + "\": expected 11 columns in \"" + line + "\".");
-        const ReferenceRow row{{std::stod(c[2]), std::stod(c[3]) * degree, std::stod(c[4]) * degree, std::stod(c[5]) * degree},
-                               std::stod(c[6]),
-                               std::stod(c[7]) + std::stod(c[8]),
-                               std::stod(c[9])};
+        const ReferenceRow row{{number(c[2]), number(c[3]) * degree, number(c[4]) * degree, number(c[5]) * degree},
+                               number(c[6]),
+                               number(c[7]) + number(c[8]),
+                               number(c[9])};
         if (row.noise <= usableNoise * row.radiance)
             rows.push_back(row);
     }
