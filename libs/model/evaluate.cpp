@@ -89,7 +89,7 @@ public:
             for (std::size_t w = 0; w < wavelengths; ++w)
                 to[w] += value[w] * phase[w] / medium_.solarIrradiance[w];
         };
-        const auto peakDepths = aureole_.depths(tracer_, g.altitude, std::cos(g.sunZenithAngle));
+        const auto peakDepths = aureole_.depths(tracer_, g.altitude, std::cos(g.sunZenithAngle), scatteringAngle);
         for (const auto& [s, table] : single_) {
             std::fill(phase.begin(), phase.end(), 1.);
             if (const auto& species = medium_.species[s]; !species.smooth) { // tables of smooth phase functions hold them already

@@ -107,12 +107,13 @@ void Aureole::tabulate(const Medium& medium, const Optics& optics, const int s, 
     }
 }
 
-std::vector<double> Aureole::depths(RayTracer& tracer, double altitude, const double muSun) const
+std::vector<double> Aureole::depths(RayTracer& tracer, double altitude, const double muSun, const double theta) const
 {
     if (!any())
         return {};
     std::vector<double> result(wavelengths_, 0.);
-    double mu = std::max(muSun, horizonMu(planet_, altitude));
+    const double highest = std::asin(std::clamp(muSun, -1., 1.)) + theta;
+    double mu = std::max(std::sin(std::min(pi / 2, highest)), horizonMu(planet_, altitude));
     if (altitude > planet_.topOfAtmosphere) {
         const double entry = mu < 0 ? distanceToShell(planet_, altitude, mu, planet_.topOfAtmosphere, true) : -1;
         if (entry < 0)

@@ -17,7 +17,8 @@ namespace sky::physics {
 ///
 /// which is P where F is 0, and far from the peak. source: the small-angle approximation of Goudsmit & Saunderson 1940, Phys. Rev. 57, 24, for the
 /// peak alone; to the second event it is IMS of Nakajima & Tanaka 1988, J. Quant. Spectrosc. Radiat. Transfer 40, 51.
-/// F is that between camera and Sun, since an aureole is seen beside it.
+/// F is that between camera and Sun, beside which an aureole is seen, and at a scattering angle theta from it that of the highest view there: what is
+/// seen far from a low Sun has come by shorter ways.
 class Aureole
 {
 public:
@@ -26,11 +27,11 @@ public:
     /// Whether any peak is truncated: else nothing needs to be asked.
     bool any() const { return !tables_.empty(); }
 
-    /// F towards a Sun whose zenith angle at the camera has the cosine `muSun`, or towards the horizon if it is below that.
+    /// F of a camera, the cosine of the Sun's zenith angle there and a scattering angle (rad).
     ///   tracer    through the profile of the medium
     ///   altitude  of the camera, m, >= 0, inside the air or above it
     ///   returns   [wavelength]; empty where nothing is truncated
-    std::vector<double> depths(RayTracer& tracer, double altitude, double muSun) const;
+    std::vector<double> depths(RayTracer& tracer, double altitude, double muSun, double theta) const;
 
     /// Multiplies the phase function of a species at scattering angle `theta` (rad) by what its aureole is over it.
     ///   depths  as told by `depths`; peaks of other species among them count as peaks of this one. Empty: no aureole

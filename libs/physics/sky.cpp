@@ -105,7 +105,8 @@ void SkyEvaluator::radiance(RayTracer& tracer, const Moments* const moments, con
     const bool ground = hitsGround(profile_.planet(), altitude, mu);
     if (parts.single)
         singleAlong(tracer.trace(altitude, mu, parts.singleNodes, ground), muSun, nu, parts.exactPhase, result, {},
-                    aureole_ && parts.exactPhase ? aureole_->depths(tracer, altitude, muSun) : std::vector<double>{});
+                    aureole_ && parts.exactPhase ? aureole_->depths(tracer, altitude, muSun, std::acos(std::clamp(nu, -1., 1.)))
+                                                 : std::vector<double>{});
     if (parts.multiple && moments)
         multipleAlong(tracer.trace(altitude, mu, parts.multipleNodes, ground, NodesFor::Field), *moments, muSun, nu, result);
 }

@@ -167,7 +167,7 @@ private:
         if (part.species && !part.species->smooth) {
             sky::physics::phaseFunctionAt(medium_, *part.species, scatteringAngle, phase.data());
             aureole_.multiply(static_cast<int>(part.species - medium_.species.data()), scatteringAngle,
-                              aureole_.depths(tracer_, view.altitude, std::cos(view.sunZenithAngle)), phase.data());
+                              aureole_.depths(tracer_, view.altitude, std::cos(view.sunZenithAngle), scatteringAngle), phase.data());
         }
         auto& sum = luminance ? xyz : spectrum;
         for (std::size_t i = 0; i < value.size(); ++i)

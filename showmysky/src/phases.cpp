@@ -1,10 +1,22 @@
 #include "phases.hpp"
 
+#include "base/angles.hpp"
 #include "physics/harmonics.hpp"
 #include <algorithm>
 #include <cmath>
 
 namespace showmysky {
+
+namespace {
+
+using sky::base::pi;
+
+/// Angles are spread by their cube root over 0..1.
+double angleAt(double u) { return pi * u * u * u; }
+/// Angles at which the depths of an aureole are followed; at two degrees they are half a degree apart.
+constexpr int depthNodes = 33;
+
+} // namespace
 
 Phases::Phases(const Atmosphere& atmosphere) : atmosphere_(atmosphere)
 {
@@ -31,7 +43,9 @@ void Phases::look(const double altitude, const double muSun)
     if (!atmosphere_.aureole.any())
         return;
     sky::physics::RayTracer tracer(atmosphere_.profile, atmosphere_.optics, 2);
-    auto depths = atmosphere_.aureole.depths(tracer, altitude, muSun);
+    std::vector<std::vector<double>> depths;
+    for (int k = 0; k < depthNodes; ++k)
+        depths.push_back(atmosphere_.aureole.depths(tracer, altitude, muSun, angleAt(double(k) / (depthNodes - 1))));
     version_ += depths != peakDepths_;
     peakDepths_ = std::move(depths);
 }
@@ -40,7 +54,14 @@ void Phases::exact(int scatterer, double theta, double* result) const
 {
     const auto species = static_cast<std::size_t>(atmosphere_.optics.scatterers[static_cast<std::size_t>(scatterer)]);
     sky::physics::phaseFunctionAt(atmosphere_.medium, atmosphere_.medium.species[species], theta, result);
-    atmosphere_.aureole.multiply(static_cast<int>(species), theta, peakDepths_, result);
+    if (peakDepths_.empty())
+        return;
+    const double place = std::cbrt(theta / pi) * (depthNodes - 1);
+    const auto k = static_cast<std::size_t>(std::clamp(place, 0., depthNodes - 2.));
+    std::vector<double> depths(shares_.size());
+    for (std::size_t w = 0; w < depths.size(); ++w)
+        depths[w] = peakDepths_[k][w] + (place - static_cast<double>(k)) * (peakDepths_[k + 1][w] - peakDepths_[k][w]);
+    atmosphere_.aureole.multiply(static_cast<int>(species), theta, depths, result);
 }
 
 double Phases::drawn(int scatterer, double nu) const
@@ -75,8 +96,7 @@ std::vector<Texel> Phases::texels(int width) const
     std::vector<double> values(shares_.size());
     for (int i = 0; i < scatterers; ++i)
         for (int x = 0; x < width; ++x) {
-            const double u = static_cast<double>(x) / (width - 1), theta = 3.14159265358979323846 * u * u * u;
-            exact(i, theta, values.data());
+            exact(i, angleAt(static_cast<double>(x) / (width - 1)), values.data());
             double mean = 0;
             for (std::size_t w = 0; w < shares_.size(); ++w)
                 mean += shares_[w] * values[w];

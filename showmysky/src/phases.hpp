@@ -32,7 +32,7 @@ private:
     void exact(int scatterer, double theta, double* result) const;
 
     const Atmosphere& atmosphere_;
-    std::vector<double> peakDepths_; ///< physics::Aureole::depths
+    std::vector<std::vector<double>> peakDepths_; ///< [angle][wavelength], physics::Aureole::depths at angles as of `texels`
     int version_ = 0;
     std::vector<double> shares_;                      ///< [wavelength], sum 1
     std::vector<std::vector<double>> constantRatios_; ///< [scatterer]: of the achromatic ones; others empty

@@ -71,7 +71,7 @@ void EclipsePhotometry::radiance(const Photometer::View& view, const Moon& moon,
             for (std::size_t i = 0; i < row; ++i)
                 ray.weights[k * row + i] *= sun.share;
         }
-        sky_.evaluator.singleAlong(ray, muSun, nu, true, result, middles, sky_.aureole.depths(tracer, view.altitude, muSun));
+        sky_.evaluator.singleAlong(ray, muSun, nu, true, result, middles, sky_.aureole.depths(tracer, view.altitude, muSun, std::acos(nu)));
     }
     const bool multiple = (layers & Photometer::multipleScattering) && sky_.moments,
                ground = (layers & Photometer::zeroOrder) && hitsGround;

@@ -250,25 +250,16 @@ void FastGather::exactPhase(const double nu, FastScratch& scratch) const
                          blocks_, &scratch.phase[i * blocks_]);
 }
 
-void FastGather::findPeaks(const double altitude, const double muSun, FastScratch& scratch) const
-{
-    auto& peaks = scratch.peaks;
-    if (peaks.altitude == altitude && peaks.muSun == muSun)
-        return;
-    if (!peaks.tracer)
-        peaks.tracer.emplace(profile_, optics_, 2);
-    peaks.depths = aureole_->depths(*peaks.tracer, altitude, muSun);
-    peaks.altitude = altitude;
-    peaks.muSun = muSun;
-}
-
-void FastGather::addAureole(const double nu, FastScratch& scratch) const
+void FastGather::addAureole(const double altitude, const double muSun, const double nu, FastScratch& scratch) const
 {
     const double angle = std::acos(std::clamp(nu, -1., 1.));
-    auto& factors = scratch.peaks.factors;
+    if (!scratch.tracer)
+        scratch.tracer.emplace(profile_, optics_, 2);
+    const auto depths = aureole_->depths(*scratch.tracer, altitude, muSun, angle);
+    auto& factors = scratch.aureole;
     for (int i = 0; i < scatterers_; ++i) {
         factors.assign(wavelengths_, 1.);
-        aureole_->multiply(optics_.scatterers[i], angle, scratch.peaks.depths, factors.data());
+        aureole_->multiply(optics_.scatterers[i], angle, depths, factors.data());
         for (int w = 0; w < wavelengths_; ++w)
             scratch.phase[i * blocks_ + w / count].v[w % count] *= static_cast<float>(factors[w]);
     }
@@ -287,7 +278,7 @@ void FastGather::truncatedPhase(const double nu, FastScratch& scratch) const
         }
 }
 
-void FastGather::gatherSingle(FastScratch& scratch, const double muSun, const double nu, const bool exact) const
+void FastGather::gatherSingle(FastScratch& scratch, const double altitude, const double muSun, const double nu, const bool exact) const
 {
     const NodeSet& set = scratch.ray.single;
     findSuns(set, scratch, static_cast<float>(muSun), static_cast<float>(nu), static_cast<float>(sunRadius_),
@@ -315,7 +306,7 @@ void FastGather::gatherSingle(FastScratch& scratch, const double muSun, const do
     if (exact) {
         exactPhase(nu, scratch);
         if (aureole_)
-            addAureole(nu, scratch);
+            addAureole(altitude, muSun, nu, scratch);
     } else {
         truncatedPhase(nu, scratch);
     }
@@ -360,10 +351,8 @@ void FastGather::radiance(FastScratch& scratch, const double altitude, const dou
     prepare(scratch);
     scratch.sum.assign(blocks_, Block{all(0)});
     const bool scatters = scatterers_ > 0; // smoke has no phase functions to be asked
-    if (parts.single && scatters && parts.exactPhase && aureole_)
-        findPeaks(altitude, muSun, scratch);
     if (parts.single && scatters)
-        gatherSingle(scratch, muSun, nu, parts.exactPhase);
+        gatherSingle(scratch, altitude, muSun, nu, parts.exactPhase);
     if (parts.multiple && moments_ && scatters)
         gatherMultiple(scratch, muSun, nu);
     for (int w = 0; w < wavelengths_; ++w)

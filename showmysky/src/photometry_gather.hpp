@@ -23,20 +23,15 @@ struct FastScratch {
     std::vector<float> axisScales;    ///< [node], 1 / log2 of the whole axis of elevations
     std::vector<float> above, places; ///< [node], of the Sun over the horizon, rad; on the axis, 0..1
     std::vector<sky::physics::Stencil> fieldRows;
-    std::vector<float> factors;               ///< [lm][node]
-    std::vector<float> elevations, cosines;   ///< [node], of the Sun, rad; of the relative azimuth there
-    std::vector<float> multiples, beforeThem; ///< [node], cos(m phi), cos((m-1) phi)
-    std::vector<float> harmonics;             ///< [lm][node], towards the eye
-    lanes::Blocks lit;                        ///< [scatterer][block]
-    lanes::Blocks phase, byDegree;            ///< [scatterer][block], [l][block]
-    lanes::Blocks sum;                        ///< [block]
-    /// Of the last camera and Sun.
-    struct Peaks {
-        double altitude = -1, muSun = 0;
-        std::optional<sky::physics::RayTracer> tracer; ///< made where it is needed first
-        std::vector<double> depths;                    ///< Aureole::depths
-        std::vector<double> factors;                   ///< [wavelength]
-    } peaks;
+    std::vector<float> factors;                    ///< [lm][node]
+    std::vector<float> elevations, cosines;        ///< [node], of the Sun, rad; of the relative azimuth there
+    std::vector<float> multiples, beforeThem;      ///< [node], cos(m phi), cos((m-1) phi)
+    std::vector<float> harmonics;                  ///< [lm][node], towards the eye
+    lanes::Blocks lit;                             ///< [scatterer][block]
+    lanes::Blocks phase, byDegree;                 ///< [scatterer][block], [l][block]
+    lanes::Blocks sum;                             ///< [block]
+    std::optional<sky::physics::RayTracer> tracer; ///< towards the Sun, for its aureole; made where it is needed first
+    std::vector<double> aureole;                   ///< [wavelength], factors
 };
 
 /// Radiance per unit solar irradiance, sr^-1. Const functions are thread-safe, each with a scratch of its own.
@@ -61,11 +56,10 @@ public:
 
 private:
     void prepare(FastScratch& scratch) const;
-    void gatherSingle(FastScratch& scratch, double muSun, double nu, bool exactPhase) const;
+    void gatherSingle(FastScratch& scratch, double altitude, double muSun, double nu, bool exactPhase) const;
     void gatherMultiple(FastScratch& scratch, double muSun, double nu) const;
     void exactPhase(double nu, FastScratch& scratch) const;
-    void addAureole(double nu, FastScratch& scratch) const;
-    void findPeaks(double altitude, double muSun, FastScratch& scratch) const;
+    void addAureole(double altitude, double muSun, double nu, FastScratch& scratch) const;
     void truncatedPhase(double nu, FastScratch& scratch) const;
 
     const sky::physics::Optics& optics_;

@@ -68,7 +68,8 @@ std::vector<double> Scene::spectralRadiance(const std::array<double, 3>& directi
             for (std::size_t w = 0; w < wavelengths; ++w)
                 ray.weights[(k * layers.single.size() + i) * wavelengths + w] *= visible[w];
     }
-    evaluator.singleAlong(ray, muSun, nu, true, result.data(), middles, atmosphere_->aureole.depths(tracer, settings_.altitude, muSun));
+    evaluator.singleAlong(ray, muSun, nu, true, result.data(), middles,
+                          atmosphere_->aureole.depths(tracer, settings_.altitude, muSun, std::acos(nu)));
     if (layers.ground && ground) {
         const auto there = entry->node(ray.ground);
         const double muSunThere = std::clamp(there.sunScale * muSun + there.nuScale * nu, -1., 1.);

@@ -60,7 +60,7 @@ TEST_CASE("aureole: a Gaussian peak is the mean of Gaussians by Poisson's law of
         const Optics optics = withoutPeak(medium);
         RayTracer tracer(profile, optics);
         const Aureole aureole(medium, optics);
-        const auto depths = aureole.depths(tracer, 0, 1);
+        const auto depths = aureole.depths(tracer, 0, 1, 0);
         REQUIRE(depths.size() == 1);
         CHECK(depths[0] == Approx(depth).epsilon(1e-3));
         for (const double angle : {0., 0.005, 0.01, 0.02, 0.04, 0.06}) {
@@ -90,7 +90,7 @@ TEST_CASE("aureole: particles have the same one, described once or as two halves
     RayTracer alone(one, once), both(two, twice);
     const Aureole a(whole, once), b(halves, twice);
     REQUIRE(a.any());
-    const auto depthsA = a.depths(alone, 0, 0.5), depthsB = b.depths(both, 0, 0.5);
+    const auto depthsA = a.depths(alone, 0, 0.5, 0.1), depthsB = b.depths(both, 0, 0.5, 0.1);
     CHECK(depthsB[0] == Approx(depthsA[0]).epsilon(1e-6));
     CHECK(factorAt(a, depthsA, 0) < 0.1);
     for (const double angle : {0., 0.03, 0.1, 0.3})
@@ -98,7 +98,8 @@ TEST_CASE("aureole: particles have the same one, described once or as two halves
             CHECK(factorAt(b, depthsB, angle, species) == Approx(factorAt(a, depthsA, angle)).epsilon(1e-5));
 }
 
-TEST_CASE("aureole: of the air between camera and Sun: none in space, but through the limb; below the horizon that of the horizon")
+TEST_CASE(
+    "aureole: of the air between camera and Sun: none in space, but through the limb; below the horizon that of the horizon; beside a low Sun that of higher views")
 {
     const auto medium = layer(
         3, 1, 0, [](double t) { return sky::test::henyeyGreenstein(0.97, t); }, 6.4e6, 1e4);
@@ -106,12 +107,15 @@ TEST_CASE("aureole: of the air between camera and Sun: none in space, but throug
     const Profile profile(medium);
     RayTracer tracer(profile, optics);
     const Aureole aureole(medium, optics);
-    const auto towards = [&](double altitude, double muSun) { return aureole.depths(tracer, altitude, muSun)[0]; };
+    const auto towards = [&](double altitude, double muSun, double theta = 0) { return aureole.depths(tracer, altitude, muSun, theta)[0]; };
     const double overhead = towards(0, 1);
     CHECK(overhead == Approx(3 * optics.truncation[0]).epsilon(1e-3));
     CHECK(towards(5e3, 1) == Approx(overhead / 2).epsilon(1e-3));
     CHECK(towards(0, 0) > 10 * overhead);
     CHECK(towards(0, -0.3) == Approx(towards(0, 0)).epsilon(1e-6));
+    CHECK(towards(0, std::sin(0.2), 0.3) == Approx(towards(0, std::sin(0.5))).epsilon(1e-9));
+    CHECK(towards(0, std::sin(-0.2), 0.3) == Approx(towards(0, std::sin(0.1))).epsilon(1e-9));
+    CHECK(towards(0, std::sin(0.2), 3) == Approx(overhead).epsilon(1e-9));
     CHECK(towards(1e4, 1) == 0);
     CHECK(towards(4e5, 0.2) == 0);
     CHECK(towards(4e5, horizonMu({6.4e6, 1e4}, 4e5)) == Approx(2 * towards(0, 0)).epsilon(1e-3));
@@ -126,6 +130,6 @@ TEST_CASE("aureole: where nothing is truncated there is nothing to ask")
     RayTracer tracer(profile, optics);
     const Aureole aureole(medium, optics);
     CHECK_FALSE(aureole.any());
-    CHECK(aureole.depths(tracer, 0, 1).empty());
+    CHECK(aureole.depths(tracer, 0, 1, 0).empty());
     CHECK(factorAt(aureole, {}, 0.01) == 1);
 }
