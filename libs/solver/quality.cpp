@@ -1,5 +1,6 @@
 #include "solver/quality.hpp"
 #include "base/error.hpp"
+#include "physics/geometry.hpp"
 #include "physics/harmonics.hpp"
 #include <algorithm>
 #include <cmath>
@@ -90,6 +91,19 @@ std::vector<double> scatteringDepths(const physics::Medium& medium, const physic
     for (int w = 0; w < medium.wavelengthCount(); ++w)
         depths[w] = column * species.extinctionCrossSection[w] * species.singleScatteringAlbedo[w];
     return depths;
+}
+
+/// Particles along the horizontal ray from the ground to space, m^-2: trapezoids between the medium's altitudes.
+double horizontalColumn(const physics::Medium& medium, const physics::Species& species)
+{
+    const physics::Planet planet{medium.planetRadius, medium.topOfAtmosphere};
+    double sum = 0;
+    for (std::size_t k = 0; k + 1 < medium.altitudes.size(); ++k) {
+        const double way =
+            physics::horizonDistance(planet, medium.altitudes[k + 1]) - physics::horizonDistance(planet, medium.altitudes[k]);
+        sum += 0.5 * (species.numberDensity[k] + species.numberDensity[k + 1]) * way;
+    }
+    return sum;
 }
 
 /// By all, the mean over wavelengths.
@@ -253,24 +267,30 @@ Pick pickQuality(const double tolerance, const physics::Medium& medium)
                     : "No quality is predicted to reach a tolerance of " + percent(tolerance) + ": taken is " + what + "."};
 }
 
-std::vector<std::string> unresolvedPeaks(const physics::Medium& medium, const physics::Optics& optics)
+std::vector<std::string> unresolvedPeaks(const physics::Medium& medium)
 {
-    constexpr double mostOfIt = 0.75; // truncated; of a cloud's droplets of g = 0.9 it is 0.16
+    constexpr double mostOfIt = 0.75; // g = 0.981; of a cloud's droplets of g = 0.85 it is 0.09
+    constexpr double bright = 0.02;   // ground: where it is darker, what thin air scatters of its light is of no weight
+    const auto meanOf = [](const std::vector<double>& values) {
+        return std::accumulate(values.begin(), values.end(), 0.) / static_cast<double>(values.size());
+    };
     std::vector<std::string> sentences;
     const double all = scatteringDepth(medium);
-    if (!(all > thick))
-        return sentences;
-    const int wavelengths = medium.wavelengthCount();
-    for (const int s : optics.scatterers) {
-        const auto depths = scatteringDepths(medium, medium.species[s]);
-        const double mine = std::accumulate(depths.begin(), depths.end(), 0.) / wavelengths;
-        const auto first = optics.truncation.begin() + s * wavelengths;
-        const double truncated = *std::max_element(first, first + wavelengths);
-        if (truncated > mostOfIt && mine > 0.5 * all)
+    for (const auto& species : medium.species) {
+        const double mine = meanOf(scatteringDepths(medium, species));
+        if (!(mine > 0.5 * all))
+            continue;
+        const double horizontal = mine * horizontalColumn(medium, species) / physics::verticalColumn(medium, species);
+        if (!(horizontal > thick || meanOf(medium.groundAlbedo) > bright)) // nearly all light that it scatters comes straight from the Sun
+            continue;
+        double inPeak = 0;
+        for (int w = 0; w < medium.wavelengthCount(); ++w)
+            inPeak = std::max(inPeak, physics::phaseMoments(medium, species, w, lastDegree)[lastDegree]);
+        if (inPeak > mostOfIt)
             sentences.push_back(
-                "Scatterer `" + medium.species[s].name + "` throws " + percent(truncated) +
-                " of its light into a peak that is too narrow for this quality, and taken as if it went straight on: what such "
-                "dense air throws back at grazing angles may be twice as bright as it should be.");
+                "Scatterer `" + species.name + "` throws " + percent(inPeak) +
+                " of its light into a peak that is too narrow for any quality: what it scatters of light from the ground, and "
+                "of light scattered before, may be wrong by half and more, most of all near the horizon.");
     }
     return sentences;
 }

@@ -46,10 +46,11 @@ struct Pick {
 /// The cheapest quality predicted to reach `tolerance` in such air; where none is, the cheapest of those that err least.
 Pick pickQuality(double tolerance, const physics::Medium& medium);
 
-/// Sentences about scatterers that do most of the scattering in dense air, and throw most of it into a peak so narrow that it is truncated: from
-/// there light goes straight on, along the surface of a cloud too, where it would be thrown out or in.
-///   optics  at the degree of the quality, truncated
-std::vector<std::string> unresolvedPeaks(const physics::Medium& medium, const physics::Optics& optics);
+/// Sentences about scatterers that do most of the scattering and throw more than 3/4 of their light into a peak that harmonics don't hold, a few
+/// degrees wide: to the solver such light goes straight on, or is blurred over ten degrees. Sunlight scattered once is exact all the same, so the
+/// sentence is only for air that also scatters light of the ground, or light scattered before: above a ground that reflects, or where the
+/// horizontal ray is deep. More harmonics don't help (docs/stress.md).
+std::vector<std::string> unresolvedPeaks(const physics::Medium& medium);
 
 /// `options` with their quality picked, where they ask for that. Tells `progress` what and why.
 Options settled(Options options, const physics::Medium& medium, Progress& progress);

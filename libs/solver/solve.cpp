@@ -153,7 +153,7 @@ void solve(const atmo::Description& description, const Options& asked, gl::Headl
         manifest.warnings.push_back(sentence);
         progress.warning(sentence);
     };
-    for (const auto& sentence : unresolvedPeaks(medium, optics))
+    for (const auto& sentence : unresolvedPeaks(medium))
         warn(sentence);
 
     // 3. The radiation field: moments of every event, summed.

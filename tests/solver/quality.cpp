@@ -72,24 +72,32 @@ TEST_CASE("quality: the kind of air follows from optical depth and peaks")
     CHECK(airOf(vacuum) == Air::Clear);
 }
 
-TEST_CASE("quality: scatterers of which no quality resolves the peak are named, where dense air consists of them")
+TEST_CASE("quality: scatterers of which no quality resolves the peak are named, where air consists of them and scatters more than sunlight")
 {
-    const auto sentences = [](const physics::Medium& medium) {
-        return unresolvedPeaks(medium, physics::makeOptics(medium, qualityFor("normal", medium).moments.degree, true));
-    };
-    const auto withPeak = [](physics::Medium medium, double g) {
+    const auto withPeak = [](physics::Medium medium, double g) { // of the last species
         for (std::size_t k = 0; k < medium.scatteringAngles.size(); ++k)
             for (int w = 0; w < medium.wavelengthCount(); ++w)
-                medium.species[1].phaseFunction[k * medium.wavelengthCount() + w] = henyeyGreenstein(g, medium.scatteringAngles[k]);
+                medium.species.back().phaseFunction[k * medium.wavelengthCount() + w] = henyeyGreenstein(g, medium.scatteringAngles[k]);
         return medium;
     };
     for (const auto& medium : oneOfEachKind())
-        CHECK(sentences(medium).empty());
-    const auto narrow = sentences(withPeak(cloud(10), 0.99));
+        CHECK(unresolvedPeaks(medium).empty());
+    const auto narrow = unresolvedPeaks(withPeak(cloud(10), 0.99));
     REQUIRE(narrow.size() == 1);
-    CHECK_THAT(narrow.front(), Catch::StartsWith("Scatterer `" + cloud(10).species[1].name + "` throws 8"));
-    CHECK(sentences(withPeak(cloud(10), 0.9)).empty());
-    CHECK(sentences(withPeak(cloud(0.1), 0.99)).empty()); // thin
+    CHECK_THAT(narrow.front(), Catch::StartsWith("Scatterer `drops` throws 86 %")); // 0.99^15
+    CHECK(unresolvedPeaks(withPeak(cloud(10), 0.98)).empty());
+    CHECK(unresolvedPeaks(withPeak(cloud(0.1), 0.99)).empty()); // molecules do most of the scattering
+
+    const auto dust = [&](double opticalDepth, double groundAlbedo) { // the horizontal ray is 35 times as deep
+        auto medium = withPeak(molecules(6371e3, 60e3, 8e3), 0.99);
+        for (double& sigma : medium.species.front().extinctionCrossSection)
+            sigma *= opticalDepth / 0.25;
+        medium.groundAlbedo = {groundAlbedo};
+        return medium;
+    };
+    CHECK(unresolvedPeaks(dust(0.1, 0)).size() == 1);
+    CHECK(unresolvedPeaks(dust(0.01, 0)).empty());
+    CHECK(unresolvedPeaks(dust(1e-6, 0.3)).size() == 1);
 }
 
 TEST_CASE("quality: each point of the front takes longer than the one before it, and computes more finely")
