@@ -34,10 +34,12 @@ TOO_LONG = 124
 JUDGING = 60 # seconds of a processor's time for the questions to a model, beside those that its computation may take
 OPAQUE = 7 # optical depth through which a thousandth of the light comes
 ENOUGH = 8 # samples that say something
-# Largest rms error against the reference, by phase functions (gentle, or with peaks sharper than the harmonics) and by the light of a sample,
-# of that of the brightest. Less than the last is dark, and nobody's error.
+# Largest rms error against the reference, by phase functions (gentle; with peaks sharper than the harmonics; or mainly with peaks of which the model
+# warns) and by the light of a sample, of that of the brightest. Less than the last is dark, and nobody's error.
 LIGHT = (("bright", 1e-2), ("faint", 1e-6))
-BOUNDS = {("gentle", "bright"): 0.05, ("gentle", "faint"): 0.2, ("sharp", "bright"): 0.15, ("sharp", "faint"): 0.3}
+BOUNDS = {("gentle", "bright"): 0.05, ("gentle", "faint"): 0.2, ("sharp", "bright"): 0.15, ("sharp", "faint"): 0.3,
+          ("unresolved", "bright"): 1, ("unresolved", "faint"): 1}
+WARNING = "too narrow for any quality" # what the manifest says of unresolved peaks
 
 
 def run(command, seconds):
@@ -114,10 +116,20 @@ def from_space(facts, row):
     return row["altitude_m"] > (1 - 1e-6) * facts["top"]
 
 
+def kind_of(options, model, facts):
+    """Phase functions of a model, by what BOUNDS are for."""
+    if facts["gentle"]:
+        return "gentle"
+    if options.unresolved_as_sharp:
+        return "sharp"
+    with open(os.path.join(model, "manifest.json")) as file:
+        return "unresolved" if any(WARNING in sentence for sentence in json.load(file)["warnings"]) else "sharp"
+
+
 def verify(options, model, facts, scratch):
     """Complaints, and ((phase functions, light), rms error, its uncertainty) against the Monte Carlo reference; (.., None, None) where it could not tell.
     Left out: what is dark; and where phase functions have sharp peaks the ground in view."""
-    report, kind = os.path.join(scratch, "v.json"), "gentle" if facts["gentle"] else "sharp"
+    report, kind = os.path.join(scratch, "v.json"), kind_of(options, model, facts)
     code, said = run([os.path.join(options.bin, "calcmysky"), "verify", model, "--seconds", str(options.verify), "--json", report, "-q"],
                      options.seconds + 10 * options.verify)
     if code == TOO_LONG: # the judge's own time, not the model's
@@ -144,7 +156,7 @@ def summary(verdicts):
         mine = sorted((rms, noise, number) for number, name, rms, noise in verdicts if name == kind and rms is not None)
         told = len(mine)
         asked = sum(name == kind for _, name, _, _ in verdicts)
-        print(f"  {' '.join(kind):14}  bound {100 * bound:3.0f} %, {told:2d} of {asked} scenes judged" + (f"; rms error: median {100 * mine[told // 2][0]:.1f} %, nine of ten below "
+        print(f"  {' '.join(kind):17}  bound {100 * bound:3.0f} %, {told:2d} of {asked} scenes judged" + (f"; rms error: median {100 * mine[told // 2][0]:.1f} %, nine of ten below "
               f"{100 * mine[min(told - 1, 9 * told // 10)][0]:.1f} %, largest {100 * mine[-1][0]:.1f} +- {100 * mine[-1][1]:.1f} % (scene {mine[-1][2]})" if mine else ""))
 
 
@@ -220,6 +232,7 @@ if __name__ == "__main__":
     parser.add_argument("--faint-precision", type=float, default=0.1, help="the same of faint light")
     parser.add_argument("--moments", action="store_true", help="judge the moments alone, and leave out scenes that take longer than --seconds")
     parser.add_argument("--verify", type=float, default=0, help="seconds of Monte Carlo for each scene")
+    parser.add_argument("--unresolved-as-sharp", action="store_true", help="give peaks that the model calls unresolved the bounds of sharp ones")
     parser.add_argument("--must-judge", action="store_true", help="fail where a scene is refused, takes too long, or leaves the reference too uncertain")
     parser.add_argument("--keep", help="keep descriptions and models here")
     sys.exit(campaign(parser.parse_args()))
