@@ -33,6 +33,14 @@ double scatteredAgain(const double depth, const double q)
     return (std::exp(std::min(mostGrowth, depth * (q - 1))) - std::exp(-depth) * (1 + depth * q)) / depth;
 }
 
+/// How much of an aureole counts at an angle: from twice what the degree resolves on, where no peak reaches, ripples of its cut series are left,
+/// through which deep air is dark or several times too bright.
+double counting(const double angle, const int degree)
+{
+    const double reach = 2 * pi / (degree + 1);
+    return std::clamp(2 - angle / reach, 0., 1.);
+}
+
 /// Legendre moments of a phase function as far as they matter.
 std::vector<double> momentsOf(const Medium& medium, const Species& species, const int wavelength, const int degree, const double f)
 {
@@ -99,10 +107,10 @@ void Aureole::tabulate(const Medium& medium, const Optics& optics, const int s, 
             for (int j = 0; j < depthNodes; ++j)
                 sums[j] += term * again[l * depthNodes + j];
         }
-        const double exact = phaseFunctionAt(medium, species, angles_[a], w);
+        const double exact = phaseFunctionAt(medium, species, angles_[a], w), reach = counting(angles_[a], optics.degree);
         for (int j = 0; j < depthNodes; ++j) {
             const double seen = smooth + std::exp(-depthNode(j)) * (exact - smooth) + sums[j];
-            table[j * angles + a] = static_cast<float>(exact > 0 ? std::log(std::clamp(seen / exact, 1e-6, 1e6)) : 0.);
+            table[j * angles + a] = static_cast<float>(exact > 0 ? reach * std::log(std::clamp(seen / exact, 1e-6, 1e6)) : 0.);
         }
     }
 }

@@ -15,7 +15,7 @@ namespace sky::physics {
 ///
 ///   P - f p + f p_F,    q_l = (lambda_l - (1 - f) lambda'_l) / f of p,    (exp(F q_l) - 1) exp(-F) / F of p_F,
 ///
-/// which is P where F is 0, and far from the peak. source: the small-angle approximation of Goudsmit & Saunderson 1940, Phys. Rev. 57, 24, for the
+/// which is P where F is 0, and is made P far from the peak. source: the small-angle approximation of Goudsmit & Saunderson 1940, Phys. Rev. 57, 24, for the
 /// peak alone; to the second event it is IMS of Nakajima & Tanaka 1988, J. Quant. Spectrosc. Radiat. Transfer 40, 51.
 /// F is that between camera and Sun, beside which an aureole is seen, and at a scattering angle theta from it that of the highest view there: what is
 /// seen far from a low Sun has come by shorter ways.
