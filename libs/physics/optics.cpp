@@ -1,5 +1,6 @@
 #include "physics/optics.hpp"
 #include "base/angles.hpp"
+#include "physics/geometry.hpp"
 #include "physics/harmonics.hpp"
 #include "physics/phase_fit.hpp"
 #include <algorithm>
@@ -12,6 +13,11 @@ namespace {
 /// Scattering optical depth of truncated light, along the vertical, from which scaling pays. Below it, leaving the series cut and
 /// the optical depths alone is the more accurate at a low degree.
 constexpr double truncationMatters = 0.005;
+
+/// Sharp peaks are scaled in any thin air where they do more than this share of the scattering, and their horizontal ray is not as deep as this. Only
+/// blurred, they carry light of the ground into the sky: g = 0.99, 1e-4 deep over a ground of albedo 0.3, erred by 201 % of bright light. Along
+/// deeper rays the blur is the better: what a peak takes a degree aside leaves a flat shell there, and light that goes straight on does not.
+constexpr double hardlyAny = 0.005, scattersAgain = 1.2;
 
 /// The mean that becomes f reaches up to so many times the first degree that is cut.
 constexpr int truncatedReach = 5;
@@ -77,6 +83,16 @@ double peakShare(const std::vector<double>& moments, const int degree)
     return weights > 0 ? std::clamp(std::max(sum / weights, faded), 0., 0.999) : 0;
 }
 
+/// Vertical optical depths of scattering by all species, [wavelength].
+std::vector<double> scatteringDepths(const Medium& medium)
+{
+    std::vector<double> depths(medium.wavelengthCount(), 0.);
+    for (const auto& species : medium.species)
+        for (int w = 0; species.scatters() && w < medium.wavelengthCount(); ++w)
+            depths[w] += verticalColumn(medium, species) * species.extinctionCrossSection[w] * species.singleScatteringAlbedo[w];
+    return depths;
+}
+
 } // namespace
 
 double verticalColumn(const Medium& medium, const Species& species)
@@ -84,6 +100,17 @@ double verticalColumn(const Medium& medium, const Species& species)
     double sum = 0;
     for (std::size_t k = 0; k + 1 < medium.altitudes.size(); ++k)
         sum += 0.5 * (species.numberDensity[k] + species.numberDensity[k + 1]) * (medium.altitudes[k + 1] - medium.altitudes[k]);
+    return sum;
+}
+
+double horizontalColumn(const Medium& medium, const Species& species)
+{
+    const Planet planet{medium.planetRadius, medium.topOfAtmosphere};
+    double sum = 0;
+    for (std::size_t k = 0; k + 1 < medium.altitudes.size(); ++k) {
+        const double way = horizonDistance(planet, medium.altitudes[k + 1]) - horizonDistance(planet, medium.altitudes[k]);
+        sum += 0.5 * (species.numberDensity[k] + species.numberDensity[k + 1]) * way;
+    }
     return sum;
 }
 
@@ -99,11 +126,12 @@ Optics makeOptics(const Medium& medium, const int degree, const bool truncate)
     optics.truncation.resize(optics.species * wavelengths);
     optics.blurred.resize(optics.species * wavelengths);
     optics.moments.resize(optics.species * (degree + 1) * wavelengths);
+    const auto scattering = scatteringDepths(medium);
     for (int s = 0; s < optics.species; ++s) {
         const auto& species = medium.species[s];
         bool scatters = false;
         std::vector<double> moments;
-        const double particles = verticalColumn(medium, species);
+        const double particles = verticalColumn(medium, species), horizontal = horizontalColumn(medium, species);
         for (int w = 0; w < wavelengths; ++w) {
             const double sigma = species.extinctionCrossSection[w];
             const double sigmaScattering = species.scatters() ? sigma * species.singleScatteringAlbedo[w] : 0;
@@ -112,7 +140,10 @@ Optics makeOptics(const Medium& medium, const int degree, const bool truncate)
                 scatters = true;
                 if (w == 0 || !species.achromatic || moments.empty())
                     moments = phaseMoments(medium, species, w, std::max(degree + 1, sharpDegree));
-                const bool matters = std::clamp(moments[degree + 1], 0., 0.999) * sigmaScattering * particles > truncationMatters;
+                const bool sharp = moments[sharpDegree] > (moments[sharpDegree - 1] > 0 ? sharpMoment : sharpBackward);
+                const bool matters =
+                    std::clamp(moments[degree + 1], 0., 0.999) * sigmaScattering * particles > truncationMatters ||
+                    (sharp && sigmaScattering * particles > hardlyAny * scattering[w] && sigmaScattering * horizontal < scattersAgain);
                 const double peak = peakAt(moments, degree);
                 const int longest = truncatedReach * (degree + 1);
                 if (truncate && matters && peak >= 0) {
@@ -120,7 +151,7 @@ Optics makeOptics(const Medium& medium, const int degree, const bool truncate)
                         moments = phaseMoments(medium, species, w, longest);
                     f = peakShare(moments, degree);
                 }
-                if (truncate && moments[sharpDegree] > (moments[sharpDegree - 1] > 0 ? sharpMoment : sharpBackward))
+                if (truncate && sharp)
                     blurred = leftOf(peak, f);
             }
             optics.truncation[s * wavelengths + w] = f;

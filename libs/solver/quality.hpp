@@ -27,7 +27,7 @@ double relativeWork(const std::string& quality);
 /// Kinds of air by what makes them hard, from the easiest on.
 enum class Air {
     Clear,  ///< a phase function of degree 2 or less: molecules
-    Dusty,  ///< sharper ones, too thin for their peaks to be truncated
+    Dusty,  ///< sharper ones, of which nothing is truncated
     Dense,  ///< no peak truncated, and an optical depth of scattering above 1.2
     Hazy,   ///< truncated peaks in an optical depth of scattering up to 1.2
     Sharp,  ///< peaks there, truncated or not, of which most is beyond all harmonics

@@ -55,7 +55,7 @@ TEST_CASE("delta-M scaling: absorption and transport scattering stay, the moment
         CHECK((1 - f) * optics.moment(0, l, 0) + f == Approx(truth[l]).epsilon(1e-12));
 }
 
-TEST_CASE("delta-M scaling: leaves gentle phase functions and thin air alone, and everything if told so")
+TEST_CASE("delta-M scaling: leaves gentle phase functions alone, and everything if told so")
 {
     const auto rayleigh = layer(100, 1, 0, sky::test::rayleighPhase);
     for (const int degree : {2, 4, 8}) {
@@ -68,9 +68,24 @@ TEST_CASE("delta-M scaling: leaves gentle phase functions and thin air alone, an
     CHECK(makeOptics(haze, 4, true).truncation[0] > 0);
     const Optics plain = makeOptics(haze, 4, false);
     CHECK(plain.truncation[0] == 0);
-    const auto thin = layer(1e-3, 1, 0, [](double t) { return henyeyGreenstein(0.9, t); });
-    CHECK(makeOptics(thin, 4, true).truncation[0] == 0);
     CHECK(plain.moment(0, 4, 0) == Approx(std::pow(0.9, 4)).epsilon(1e-4));
+}
+
+TEST_CASE("delta-M scaling: of sharp peaks in thin air too, unless horizontal rays are deep or others do nearly all of the scattering")
+{
+    const auto truncated = [](double opticalDepth, double g, double radius, double others = 0) {
+        auto medium = layer(
+            opticalDepth, 1, 0.3, [&](double t) { return henyeyGreenstein(g, t); }, radius);
+        medium.species.push_back(layer(others, 1, 0, sky::test::rayleighPhase, radius).species[0]);
+        return makeOptics(medium, 14, true).truncation[0] > 0;
+    };
+    CHECK(truncated(1e-4, 0.99, 6.4e6)); // 0.01 along the horizontal
+    CHECK_FALSE(truncated(1e-4, 0.8, 6.4e6));
+    CHECK(truncated(2e-3, 0.99, 6.4e6));       // 0.2
+    CHECK_FALSE(truncated(2e-3, 0.99, 6.4e9)); // 7
+    CHECK(truncated(2e-2, 0.99, 6.4e9));       // 70, but no longer thin
+    CHECK(truncated(1e-4, 0.99, 6.4e6, 0.01));
+    CHECK_FALSE(truncated(1e-4, 0.99, 6.4e6, 0.05));
 }
 
 /// Sum of the series of a phase function, by that of isotropic scattering: the lowest value, and the highest.
@@ -91,13 +106,13 @@ static std::pair<double, double> extremes(const Optics& optics)
 
 TEST_CASE("sharp peaks: their series fade to its end, ripple little below zero, and keep the flux")
 {
-    for (const double opticalDepth : {1e-4, 1.})
+    for (const double opticalDepth : {1e-3, 1.})
         for (const double g : {0.9, 0.97, 0.99})
             for (const int degree : {8, 14, 20}) {
                 CAPTURE(opticalDepth, g, degree);
                 const auto air = layer(opticalDepth, 0.9, 0, [&](double t) { return henyeyGreenstein(g, t); });
                 const Optics optics = makeOptics(air, degree, true);
-                CHECK((optics.truncation[0] == 0) == (opticalDepth < 1)); // thin air is not scaled
+                CHECK((optics.truncation[0] == 0) == (opticalDepth < 1)); // thin air is not, where horizontal rays are deep
                 CHECK(optics.moment(0, 0, 0) == Approx(1).margin(1e-4));  // table of the phase function
                 CHECK(optics.moment(0, degree, 0) < 0.03);
                 const auto [lowest, highest] = extremes(optics);
@@ -132,14 +147,14 @@ TEST_CASE("sharp peaks: gentle ones are left alone, and all if told so")
     const auto gentle = layer(1e-4, 1, 0, [](double t) { return henyeyGreenstein(0.76, t); });
     for (int l = 0; l <= 4; ++l)
         CHECK(makeOptics(gentle, 4, true).moment(0, l, 0) == Approx(std::pow(0.76, l)).epsilon(1e-4));
-    const auto sharp = layer(1e-4, 1, 0, [](double t) { return henyeyGreenstein(0.99, t); });
+    const auto sharp = layer(1e-3, 1, 0, [](double t) { return henyeyGreenstein(0.99, t); });
     CHECK(makeOptics(sharp, 0, true).moment(0, 0, 0) == Approx(1));
     CHECK(makeOptics(sharp, 8, false).moment(0, 8, 0) == Approx(std::pow(0.99, 8)).epsilon(1e-3));
 }
 
 TEST_CASE("sharp peaks: one backward fades as its mirror image would forward")
 {
-    for (const double opticalDepth : {1e-4, 10.})
+    for (const double opticalDepth : {1e-3, 10.})
         for (const double g : {0.8, 0.9, 0.99})
             for (const int degree : {8, 9, 14, 20}) {
                 CAPTURE(opticalDepth, g, degree);

@@ -132,7 +132,7 @@ TEST_CASE("tolerance: a smaller one never picks a cheaper quality, and what is p
             several += rank(pick.quality) > before;
             before = rank(pick.quality);
         }
-        CHECK(several >= 1);
+        CHECK((several >= 1) == (airOf(medium) != Air::Sharp)); // by day there no quality gains anything (docs/accuracy)
         const Pick best = pickQuality(1e-9, medium);
         CHECK_FALSE(best.reached);
         CHECK(pickQuality(best.predictedError, medium).quality == best.quality);
