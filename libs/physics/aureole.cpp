@@ -18,7 +18,7 @@ constexpr int octave = 2, depthNodes = 8 * octave + 1;
 double depthNode(const int j) { return shallow * (std::exp2(double(j) / octave) - 1); }
 double depthPlace(const double depth) { return std::clamp(octave * std::log2(1 + depth / shallow), 0., depthNodes - 1.); }
 
-/// A peak is followed to the first moment as small as this, or to the degree that resolves a third of the Sun's disc.
+/// A peak is followed to the first moment as small as this, or to the degree that resolves a third of the Sun's radius.
 constexpr double negligible = 3e-3;
 constexpr int longest = 2048;
 

@@ -5,6 +5,7 @@
 #include "physics/phase_fit.hpp"
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace sky::physics {
 
@@ -83,16 +84,6 @@ double peakShare(const std::vector<double>& moments, const int degree)
     return weights > 0 ? std::clamp(std::max(sum / weights, faded), 0., 0.999) : 0;
 }
 
-/// Vertical optical depths of scattering by all species, [wavelength].
-std::vector<double> scatteringDepths(const Medium& medium)
-{
-    std::vector<double> depths(medium.wavelengthCount(), 0.);
-    for (const auto& species : medium.species)
-        for (int w = 0; species.scatters() && w < medium.wavelengthCount(); ++w)
-            depths[w] += verticalColumn(medium, species) * species.extinctionCrossSection[w] * species.singleScatteringAlbedo[w];
-    return depths;
-}
-
 } // namespace
 
 double verticalColumn(const Medium& medium, const Species& species)
@@ -114,6 +105,17 @@ double horizontalColumn(const Medium& medium, const Species& species)
     return sum;
 }
 
+std::vector<double> scatteringDepths(const Medium& medium, const Species& species)
+{
+    std::vector<double> depths(medium.wavelengthCount(), 0.);
+    if (!species.scatters())
+        return depths;
+    const double column = verticalColumn(medium, species);
+    for (int w = 0; w < medium.wavelengthCount(); ++w)
+        depths[w] = column * species.extinctionCrossSection[w] * species.singleScatteringAlbedo[w];
+    return depths;
+}
+
 Optics makeOptics(const Medium& medium, const int degree, const bool truncate)
 {
     const int wavelengths = medium.wavelengthCount();
@@ -126,12 +128,17 @@ Optics makeOptics(const Medium& medium, const int degree, const bool truncate)
     optics.truncation.resize(optics.species * wavelengths);
     optics.blurred.resize(optics.species * wavelengths);
     optics.moments.resize(optics.species * (degree + 1) * wavelengths);
-    const auto scattering = scatteringDepths(medium);
+    std::vector<double> allDepths(wavelengths, 0.);
+    for (const auto& species : medium.species) {
+        const auto depths = scatteringDepths(medium, species);
+        std::transform(depths.begin(), depths.end(), allDepths.begin(), allDepths.begin(), std::plus<>{});
+    }
     for (int s = 0; s < optics.species; ++s) {
         const auto& species = medium.species[s];
         bool scatters = false;
         std::vector<double> moments;
-        const double particles = verticalColumn(medium, species), horizontal = horizontalColumn(medium, species);
+        const auto depths = scatteringDepths(medium, species);
+        const double horizontal = horizontalColumn(medium, species);
         for (int w = 0; w < wavelengths; ++w) {
             const double sigma = species.extinctionCrossSection[w];
             const double sigmaScattering = species.scatters() ? sigma * species.singleScatteringAlbedo[w] : 0;
@@ -141,9 +148,8 @@ Optics makeOptics(const Medium& medium, const int degree, const bool truncate)
                 if (w == 0 || !species.achromatic || moments.empty())
                     moments = phaseMoments(medium, species, w, std::max(degree + 1, sharpDegree));
                 const bool sharp = moments[sharpDegree] > (moments[sharpDegree - 1] > 0 ? sharpMoment : sharpBackward);
-                const bool matters =
-                    std::clamp(moments[degree + 1], 0., 0.999) * sigmaScattering * particles > truncationMatters ||
-                    (sharp && sigmaScattering * particles > hardlyAny * scattering[w] && sigmaScattering * horizontal < scattersAgain);
+                const bool matters = std::clamp(moments[degree + 1], 0., 0.999) * depths[w] > truncationMatters ||
+                                     (sharp && depths[w] > hardlyAny * allDepths[w] && sigmaScattering * horizontal < scattersAgain);
                 const double peak = peakAt(moments, degree);
                 const int longest = truncatedReach * (degree + 1);
                 if (truncate && matters && peak >= 0) {

@@ -9,9 +9,9 @@ namespace sky::physics {
 ///
 /// With f the truncated share of the phase function, extinction and scattering cross sections lose f sigma_sca and the
 /// Legendre moments become (lambda_l - f) / (1 - f). source: Wiscombe 1977, J. Atmos. Sci. 34, 1408.
-/// Species too thin for their peaks to matter are not scaled, but sharp ones: not where horizontal rays are deep. Of phase functions that are sharp a share b, what a peak has left of the last moments, is blurred to what the degree
-/// resolves: lambda_l - b (1 - k_l), with a filter k that falls from one to next to nothing at the degree; for a peak backward (-1)^l |b| in
-/// place of b.
+/// Of thin species only sharp peaks are truncated, where horizontal rays are not deep. Of phase functions that are sharp a share b, what a peak
+/// has left of the last moments, is blurred to what the degree resolves: lambda_l - b (1 - k_l), with a filter k that falls from one to next to
+/// nothing at the degree; for a peak backward (-1)^l |b| in place of b.
 struct Optics {
     int degree = 0;
     int species = 0;
@@ -31,6 +31,9 @@ double verticalColumn(const Medium& medium, const Species& species);
 
 /// The same along the horizontal ray from the ground to space.
 double horizontalColumn(const Medium& medium, const Species& species);
+
+/// Vertical optical depths of scattering by a species, [wavelength].
+std::vector<double> scatteringDepths(const Medium& medium, const Species& species);
 
 /// Optics of `medium` for harmonics up to `degree`.
 ///   truncate  scale and blur where peaks are sharp; false: the series is only cut

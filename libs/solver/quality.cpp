@@ -81,24 +81,12 @@ bool truncatesPeaks(const physics::Medium& medium, const int degree)
     return physics::truncates(physics::makeOptics(medium, degree, true));
 }
 
-/// Vertical optical depths of scattering by a species, [wavelength].
-std::vector<double> scatteringDepths(const physics::Medium& medium, const physics::Species& species)
-{
-    std::vector<double> depths(medium.wavelengthCount(), 0.);
-    if (!species.scatters())
-        return depths;
-    const double column = physics::verticalColumn(medium, species);
-    for (int w = 0; w < medium.wavelengthCount(); ++w)
-        depths[w] = column * species.extinctionCrossSection[w] * species.singleScatteringAlbedo[w];
-    return depths;
-}
-
-/// By all, the mean over wavelengths.
+/// Vertical optical depth of scattering, the mean over wavelengths.
 double scatteringDepth(const physics::Medium& medium)
 {
     double sum = 0;
     for (const auto& species : medium.species)
-        for (const double depth : scatteringDepths(medium, species))
+        for (const double depth : physics::scatteringDepths(medium, species))
             sum += depth;
     return sum / medium.wavelengthCount();
 }
@@ -110,7 +98,7 @@ bool hasSharpPeaks(const physics::Medium& medium)
 {
     const double all = scatteringDepth(medium);
     for (const auto& species : medium.species) {
-        const auto depths = scatteringDepths(medium, species);
+        const auto depths = physics::scatteringDepths(medium, species);
         for (int w = 0; w < medium.wavelengthCount(); ++w)
             if (depths[w] > sharpShare * all && physics::phaseMoments(medium, species, w, lastDegree)[lastDegree] > sharpMoment)
                 return true;
@@ -149,7 +137,7 @@ int neededDegree(const physics::Medium& medium, int most, double tolerance)
     for (const auto& species : medium.species) {
         if (!species.scatters())
             continue;
-        const auto depths = scatteringDepths(medium, species);
+        const auto depths = physics::scatteringDepths(medium, species);
         for (int w = 0; w < medium.wavelengthCount(); ++w) {
             const double depth = depths[w];
             if (!(depth > 0) || (w > 0 && species.achromatic && tolerance == 0))
@@ -264,7 +252,7 @@ std::vector<std::string> unresolvedPeaks(const physics::Medium& medium)
     std::vector<std::string> sentences;
     const double all = scatteringDepth(medium);
     for (const auto& species : medium.species) {
-        const double mine = meanOf(scatteringDepths(medium, species));
+        const double mine = meanOf(physics::scatteringDepths(medium, species));
         if (!(mine > 0.5 * all))
             continue;
         const double horizontal = mine * physics::horizontalColumn(medium, species) / physics::verticalColumn(medium, species);
