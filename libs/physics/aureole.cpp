@@ -115,27 +115,36 @@ void Aureole::tabulate(const Medium& medium, const Optics& optics, const int s, 
     }
 }
 
-std::vector<double> Aureole::depths(RayTracer& tracer, double altitude, const double muSun, const double theta) const
+std::vector<double> Aureole::depths(RayTracer& tracer, const double altitude, const double muSun, const double theta) const
 {
-    if (!any())
-        return {};
-    std::vector<double> result(wavelengths_, 0.);
+    std::vector<double> columns, result;
+    depths(tracer, altitude, muSun, theta, columns, result);
+    return result;
+}
+
+void Aureole::depths(RayTracer& tracer, double altitude, const double muSun, const double theta, std::vector<double>& columns,
+                     std::vector<double>& result) const
+{
+    if (!any()) {
+        result.clear();
+        return;
+    }
+    result.assign(wavelengths_, 0.);
     const double highest = std::asin(std::clamp(muSun, -1., 1.)) + theta;
     double mu = std::max(std::sin(std::min(pi / 2, highest)), horizonMu(planet_, altitude));
     if (altitude > planet_.topOfAtmosphere) {
         const double entry = mu < 0 ? distanceToShell(planet_, altitude, mu, planet_.topOfAtmosphere, true) : -1;
         if (entry < 0)
-            return result;
+            return;
         mu = ((planet_.radius + altitude) * mu + entry) / (planet_.radius + planet_.topOfAtmosphere);
         altitude = planet_.topOfAtmosphere;
     }
     const std::size_t species = peaks_.size() / wavelengths_;
-    std::vector<double> columns(species);
+    columns.resize(species);
     tracer.columns(altitude, std::clamp(mu, horizonMu(planet_, altitude), 1.), columns.data());
     for (std::size_t s = 0; s < species; ++s)
         for (int w = 0; w < wavelengths_; ++w)
             result[w] += columns[s] * peaks_[s * wavelengths_ + w];
-    return result;
 }
 
 void Aureole::multiply(const int species, const double theta, const std::vector<double>& depths, double* const phase) const

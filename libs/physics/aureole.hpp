@@ -33,6 +33,10 @@ public:
     ///   returns   [wavelength]; empty where nothing is truncated
     std::vector<double> depths(RayTracer& tracer, double altitude, double muSun, double theta) const;
 
+    /// The same for many questions, into memory that is kept: `columns` is scratch.
+    void depths(RayTracer& tracer, double altitude, double muSun, double theta, std::vector<double>& columns,
+                std::vector<double>& result) const;
+
     /// Multiplies the phase function of a species at scattering angle `theta` (rad) by what its aureole is over it.
     ///   depths  as told by `depths`; peaks of other species among them count as peaks of this one. Empty: no aureole
     ///   phase   [wavelength]

@@ -129,15 +129,16 @@ Optics makeOptics(const Medium& medium, const int degree, const bool truncate)
     optics.blurred.resize(optics.species * wavelengths);
     optics.moments.resize(optics.species * (degree + 1) * wavelengths);
     std::vector<double> allDepths(wavelengths, 0.);
+    std::vector<std::vector<double>> depthsOf;
     for (const auto& species : medium.species) {
-        const auto depths = scatteringDepths(medium, species);
+        const auto& depths = depthsOf.emplace_back(scatteringDepths(medium, species));
         std::transform(depths.begin(), depths.end(), allDepths.begin(), allDepths.begin(), std::plus<>{});
     }
     for (int s = 0; s < optics.species; ++s) {
         const auto& species = medium.species[s];
         bool scatters = false;
         std::vector<double> moments;
-        const auto depths = scatteringDepths(medium, species);
+        const auto& depths = depthsOf[s];
         const double horizontal = horizontalColumn(medium, species);
         for (int w = 0; w < wavelengths; ++w) {
             const double sigma = species.extinctionCrossSection[w];

@@ -40,8 +40,9 @@ Phases::Phases(const Atmosphere& atmosphere) : atmosphere_(atmosphere)
 
 void Phases::look(const double altitude, const double muSun)
 {
-    if (!atmosphere_.aureole.any())
+    if (!atmosphere_.aureole.any() || looked_ == std::pair(altitude, muSun))
         return;
+    looked_ = {altitude, muSun};
     sky::physics::RayTracer tracer(atmosphere_.profile, atmosphere_.optics, 2);
     std::vector<std::vector<double>> depths;
     for (int k = 0; k < depthNodes; ++k)

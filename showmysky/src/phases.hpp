@@ -4,6 +4,8 @@
 
 #include "atmosphere.hpp"
 #include "sky_view.hpp"
+#include <optional>
+#include <utility>
 
 namespace showmysky {
 
@@ -32,7 +34,8 @@ private:
     void exact(int scatterer, double theta, double* result) const;
 
     const Atmosphere& atmosphere_;
-    std::vector<std::vector<double>> peakDepths_; ///< [angle][wavelength], physics::Aureole::depths at angles as of `texels`
+    std::optional<std::pair<double, double>> looked_; ///< altitude and cosine that were looked at last
+    std::vector<std::vector<double>> peakDepths_;     ///< [angle][wavelength], physics::Aureole::depths at angles as of `texels`
     int version_ = 0;
     std::vector<double> shares_;                      ///< [wavelength], sum 1
     std::vector<std::vector<double>> constantRatios_; ///< [scatterer]: of the achromatic ones; others empty

@@ -255,11 +255,11 @@ void FastGather::addAureole(const double altitude, const double muSun, const dou
     const double angle = std::acos(std::clamp(nu, -1., 1.));
     if (!scratch.tracer)
         scratch.tracer.emplace(profile_, optics_, 2);
-    const auto depths = aureole_->depths(*scratch.tracer, altitude, muSun, angle);
+    aureole_->depths(*scratch.tracer, altitude, muSun, angle, scratch.columns, scratch.peakDepths);
     auto& factors = scratch.aureole;
     for (int i = 0; i < scatterers_; ++i) {
         factors.assign(wavelengths_, 1.);
-        aureole_->multiply(optics_.scatterers[i], angle, depths, factors.data());
+        aureole_->multiply(optics_.scatterers[i], angle, scratch.peakDepths, factors.data());
         for (int w = 0; w < wavelengths_; ++w)
             scratch.phase[i * blocks_ + w / count].v[w % count] *= static_cast<float>(factors[w]);
     }

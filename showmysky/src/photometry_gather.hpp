@@ -31,6 +31,7 @@ struct FastScratch {
     lanes::Blocks phase, byDegree;                 ///< [scatterer][block], [l][block]
     lanes::Blocks sum;                             ///< [block]
     std::optional<sky::physics::RayTracer> tracer; ///< towards the Sun, for its aureole; made where it is needed first
+    std::vector<double> columns, peakDepths;       ///< physics::Aureole::depths
     std::vector<double> aureole;                   ///< [wavelength], factors
 };
 
