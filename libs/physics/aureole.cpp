@@ -1,6 +1,7 @@
 #include "physics/aureole.hpp"
 #include "base/angles.hpp"
 #include "base/parallel.hpp"
+#include "physics/air_entry.hpp"
 #include "physics/harmonics.hpp"
 #include <algorithm>
 #include <array>
@@ -122,7 +123,7 @@ std::vector<double> Aureole::depths(RayTracer& tracer, const double altitude, co
     return result;
 }
 
-void Aureole::depths(RayTracer& tracer, double altitude, const double muSun, const double theta, std::vector<double>& columns,
+void Aureole::depths(RayTracer& tracer, const double altitude, const double muSun, const double theta, std::vector<double>& columns,
                      std::vector<double>& result) const
 {
     if (!any()) {
@@ -131,17 +132,12 @@ void Aureole::depths(RayTracer& tracer, double altitude, const double muSun, con
     }
     result.assign(wavelengths_, 0.);
     const double highest = std::asin(std::clamp(muSun, -1., 1.)) + theta;
-    double mu = std::max(std::sin(std::min(pi / 2, highest)), horizonMu(planet_, altitude));
-    if (altitude > planet_.topOfAtmosphere) {
-        const double entry = mu < 0 ? distanceToShell(planet_, altitude, mu, planet_.topOfAtmosphere, true) : -1;
-        if (entry < 0)
-            return;
-        mu = ((planet_.radius + altitude) * mu + entry) / (planet_.radius + planet_.topOfAtmosphere);
-        altitude = planet_.topOfAtmosphere;
-    }
+    const auto entry = enterAir(planet_, altitude, std::max(std::sin(std::min(pi / 2, highest)), horizonMu(planet_, altitude)));
+    if (!entry)
+        return;
     const std::size_t species = peaks_.size() / wavelengths_;
     columns.resize(species);
-    tracer.columns(altitude, std::clamp(mu, horizonMu(planet_, altitude), 1.), columns.data());
+    tracer.columns(entry->altitude, std::max(entry->mu, horizonMu(planet_, entry->altitude)), columns.data());
     for (std::size_t s = 0; s < species; ++s)
         for (int w = 0; w < wavelengths_; ++w)
             result[w] += columns[s] * peaks_[s * wavelengths_ + w];

@@ -120,7 +120,7 @@ Texel Aerial::luminance(const std::vector<double>& radiance) const
 
 double Aerial::relativeAzimuth(int column) const { return pi * (scene_.eclipse ? column - (azimuths - 1) : column) / (azimuths - 1); }
 
-physics::RayNodes Aerial::nodes(const physics::SeenColumns& seen, const AirEntry& entry, bool ground, int parts) const
+physics::RayNodes Aerial::nodes(const physics::SeenColumns& seen, const physics::AirEntry& entry, bool ground, int parts) const
 {
     const auto& planet = atmosphere_.planet();
     const auto scatterers = static_cast<std::size_t>(atmosphere_.scatterers());

@@ -4,10 +4,10 @@
 // Light is tabulated as shares of the light of the whole line, one for each of the sky's tables, so that a point at infinity has
 // exactly the sky behind it. Computed from the moments and the medium along fewer lines than the sky's, only for hosts that ask.
 
-#include "air_entry.hpp"
 #include "atmosphere.hpp"
 #include "eclipse_view.hpp"
 #include "phases.hpp"
+#include "physics/air_entry.hpp"
 #include "physics/ray.hpp"
 #include "settings_used.hpp"
 #include "sky_view.hpp"
@@ -64,7 +64,7 @@ private:
         sky::physics::RayNodes single, multiple;
         std::vector<Texel> columnShares; ///< [distance]: of what all its air scatters towards the camera
     };
-    sky::physics::RayNodes nodes(const sky::physics::SeenColumns& seen, const AirEntry& entry, bool ground, int parts) const;
+    sky::physics::RayNodes nodes(const sky::physics::SeenColumns& seen, const sky::physics::AirEntry& entry, bool ground, int parts) const;
     Line trace(int view, sky::physics::RayTracer& tracer);
     /// \param shares  of light of higher orders left in an eclipse, [interval][column][wavelength]; null without one
     void growLight(int view, const Line& line, const float* shares);

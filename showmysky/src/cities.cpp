@@ -1,8 +1,8 @@
 #include "cities.hpp"
 
-#include "air_entry.hpp"
 #include "base/angles.hpp"
 #include "base/parallel.hpp"
+#include "physics/air_entry.hpp"
 #include "physics/colour.hpp"
 #include "physics/table_axes.hpp"
 #include <algorithm>

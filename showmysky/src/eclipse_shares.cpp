@@ -1,8 +1,8 @@
 #include "eclipse_shares.hpp"
 
-#include "air_entry.hpp"
 #include "base/angles.hpp"
 #include "base/parallel.hpp"
+#include "physics/air_entry.hpp"
 #include <algorithm>
 #include <cmath>
 

@@ -1,9 +1,9 @@
 #pragma once
 // What every user of an eclipse's field asks: its lines of sight, and whether it is still the right one.
 
-#include "air_entry.hpp"
 #include "eclipse/field.hpp"
 #include "eclipse/frame.hpp"
+#include "physics/air_entry.hpp"
 #include "physics/sky.hpp"
 
 namespace showmysky {

@@ -48,7 +48,7 @@ std::array<double, 4> Glow::luminanceOf(const double* radiance) const
     return sum;
 }
 
-void Glow::along(physics::RayTracer& tracer, const AirEntry& entry, bool ground, double* result) const
+void Glow::along(physics::RayTracer& tracer, const physics::AirEntry& entry, bool ground, double* result) const
 {
     light_.seen(tracer.cells(entry.altitude, entry.mu, ground, physics::GlowLight::deepest), result);
     const auto& spectrum = model_.manifest().lightPollutionRadiance;

@@ -1,8 +1,8 @@
 #pragma once
 // Light of a ground that glows evenly: the same in every azimuth, from the moments or the table of a model.
 
-#include "air_entry.hpp"
 #include "model/glow_tables.hpp"
+#include "physics/air_entry.hpp"
 #include "physics/glow_light.hpp"
 #include "sky_view.hpp"
 #include <optional>
@@ -31,7 +31,7 @@ public:
     ViewTable fromTextures(double altitude);
 
 private:
-    void along(sky::physics::RayTracer& tracer, const AirEntry& entry, bool ground, double* result) const;
+    void along(sky::physics::RayTracer& tracer, const sky::physics::AirEntry& entry, bool ground, double* result) const;
     std::array<double, 4> luminanceOf(const double* radiance) const;
 
     const sky::model::Model& model_;

@@ -1,9 +1,9 @@
 #include "moment_gather.hpp"
 
-#include "air_entry.hpp"
 #include "base/angles.hpp"
 #include "base/lanes.hpp"
 #include "base/parallel.hpp"
+#include "physics/air_entry.hpp"
 #include "physics/field_fold.hpp"
 #include "physics/harmonics.hpp"
 #include "physics/shadow_edge.hpp"

@@ -5,6 +5,7 @@
 #include "photometry_eclipse.hpp"
 #include "photometry_gather.hpp"
 #include "photometry_model.hpp"
+#include "physics/air_entry.hpp"
 #include "physics/quadrature.hpp"
 #include "translate.hpp"
 #include <algorithm>
@@ -46,13 +47,10 @@ struct RayStart {
 /// Where a ray from above the atmosphere enters it; false if it never does.
 bool enter(const physics::Planet& p, RayStart& ray, double nu)
 {
-    if (ray.altitude <= p.topOfAtmosphere)
-        return true;
-    const double s = physics::distanceToShell(p, ray.altitude, ray.mu, p.topOfAtmosphere, true);
-    if (!(s >= 0) || ray.mu >= 0)
+    const auto entry = enterAir(p, ray.altitude, ray.mu);
+    if (!entry)
         return false;
-    const double r = p.radius + ray.altitude, top = p.radius + p.topOfAtmosphere;
-    ray = {p.topOfAtmosphere, std::clamp((r * ray.mu + s) / top, -1., 1.), std::clamp((r * ray.muSun + s * nu) / top, -1., 1.)};
+    ray = {entry->altitude, entry->mu, std::clamp(entry->outerScale * ray.muSun + entry->outerShift * nu, -1., 1.)};
     return true;
 }
 

@@ -1,9 +1,9 @@
 // The spectral radiance of a single direction, followed along its own ray in double precision: what probes and the tests of pictures ask.
 #include "scene.hpp"
 
-#include "air_entry.hpp"
 #include "base/angles.hpp"
 #include "bodies.hpp"
+#include "physics/air_entry.hpp"
 #include "physics/sky.hpp"
 #include <algorithm>
 #include <cmath>

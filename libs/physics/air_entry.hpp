@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <optional>
 
-namespace showmysky {
+namespace sky::physics {
 
 /// A ray inside the air, and how the Sun's height along it follows from the Sun's height at the camera.
 struct AirEntry {
@@ -14,7 +14,7 @@ struct AirEntry {
     double outerScale, outerShift; ///< cos(Sun's zenith angle) there = outerScale muSun + outerShift nu
 
     /// A node of the ray from the entry, seen from the camera.
-    sky::physics::RayNodes::Node node(sky::physics::RayNodes::Node own) const
+    RayNodes::Node node(RayNodes::Node own) const
     {
         own.nuScale += own.sunScale * outerShift;
         own.sunScale *= outerScale;
@@ -23,7 +23,7 @@ struct AirEntry {
 };
 
 /// Nothing if the ray misses the air.
-inline std::optional<AirEntry> enterAir(const sky::physics::Planet& planet, double altitude, double mu)
+inline std::optional<AirEntry> enterAir(const Planet& planet, double altitude, double mu)
 {
     if (altitude <= planet.topOfAtmosphere)
         return AirEntry{altitude, mu, 1, 0};
@@ -34,4 +34,4 @@ inline std::optional<AirEntry> enterAir(const sky::physics::Planet& planet, doub
     return AirEntry{planet.topOfAtmosphere, std::clamp((r * mu + entry) / top, -1., 1.), r / top, entry / top};
 }
 
-} // namespace showmysky
+} // namespace sky::physics
