@@ -2,13 +2,14 @@
 // The fold of docs/method 5: one node of a ray under one Sun, harmonics summed over l.
 
 #include "physics/harmonics.hpp"
+#include "physics/stencil.hpp"
 #include <algorithm>
 
 namespace sky::physics {
 
 /// g_m = sum_l c_lm sum_i w_i I_lm,i, for 0 <= m <= azimuthal, and the level that they are relative to. Inlined, so that it becomes vector code of
 /// whatever its caller is compiled for.
-///   levels        the field at the four altitudes of a stencil, [lm][stride] each; of lm = 0 the logarithm of the mean
+///   levels        the field at the four altitudes of a stencil, [lm][stride] each; of lm = 0 log2 of the mean
 ///   weights       of the four
 ///   between       place between the two in the middle, 0..1: what is above `bentDegree` is straight there
 ///   coefficients  [lm][stride], of the node
@@ -19,8 +20,10 @@ namespace sky::physics {
                                             float* __restrict out)
 {
     const float* __restrict a = levels[0], * __restrict b = levels[1], * __restrict c = levels[2], * __restrict d = levels[3];
+    constexpr float eFolding = 1.44269504F;
+    const LogarithmBetween<float> logarithm(weights, between, levels[0] == levels[1], eFolding);
     for (int w = 0; w < stride; ++w) {
-        out[w] = weights[0] * a[w] + weights[1] * b[w] + weights[2] * c[w] + weights[3] * d[w];
+        out[w] = logarithm(a[w], b[w], c[w], d[w]);
         out[stride + w] = coefficients[w];
     }
     for (int i = 2 * stride; i < (azimuthal + 2) * stride; ++i)

@@ -133,7 +133,10 @@ void GlowMoments::interpolate(const double altitude, double* const result) const
     const double* levels[4];
     for (int i = 0; i < 4; ++i)
         levels[i] = &values[size_t(a.index[i]) * count];
-    for (int k = 0; k < count; ++k)
+    const auto logarithm = logarithmBetween(a);
+    for (int w = 0; w < wavelengths; ++w)
+        result[w] = logarithm(levels[0][w], levels[1][w], levels[2][w], levels[3][w]);
+    for (int k = wavelengths; k < count; ++k)
         result[k] = a.weight[0] * levels[0][k] + a.weight[1] * levels[1][k] + a.weight[2] * levels[2][k] + a.weight[3] * levels[3][k];
     for (int w = 0; w < wavelengths; ++w)
         result[w] = std::exp(result[w]);

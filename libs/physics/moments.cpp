@@ -150,19 +150,24 @@ void Moments::interpolate(const double altitude, const double muSun, double* con
     const int count = harmonicCount(degree) * wavelengths;
     std::fill(result, result + count, 0.);
     const std::array<double, 4> straight{0, 1 - a.between, a.between, 0};
-    for (int i = 0; i < 4; ++i)
-        for (int j = 0; j < 4; ++j) {
-            const double mirror = b.index[j] < grid.sunCount() ? 1 : -1; // of odd orders
-            if (b.weight[j] == 0)
-                continue;
-            const double* source = at(a.index[i], grid.sunAsHigh(b.index[j]));
-            for (int l = 0, k = 0; l <= degree; ++l) {
+    const auto logarithm = logarithmBetween(a);
+    for (int j = 0; j < 4; ++j) {
+        const double mirror = b.index[j] < grid.sunCount() ? 1 : -1; // of odd orders
+        if (b.weight[j] == 0)
+            continue;
+        const double* levels[4];
+        for (int i = 0; i < 4; ++i)
+            levels[i] = at(a.index[i], grid.sunAsHigh(b.index[j]));
+        for (int w = 0; w < wavelengths; ++w)
+            result[w] += b.weight[j] * logarithm(levels[0][w], levels[1][w], levels[2][w], levels[3][w]);
+        for (int i = 0; i < 4; ++i)
+            for (int l = 1, k = wavelengths; l <= degree; ++l) {
                 const double weight = (bentDegree < 0 || l <= bentDegree ? a.weight[i] : straight[i]) * b.weight[j];
                 for (int m = 0; m <= l; ++m)
                     for (int w = 0; w < wavelengths; ++w, ++k)
-                        result[k] += (m % 2 ? mirror : 1) * weight * source[k];
+                        result[k] += (m % 2 ? mirror : 1) * weight * levels[i][k];
             }
-        }
+    }
     for (int w = 0; w < wavelengths; ++w)
         result[w] = std::exp(result[w]);
     for (int lm = 1; lm < harmonicCount(degree); ++lm)

@@ -18,10 +18,6 @@ double intoDarkness(double x, double lit, double next)
     return x * lit * std::exp(-(1 - x) * fall);
 }
 
-/// An outer neighbour as it enters the curve between `near` and `far`: one that lies decades deeper than these differ would make
-/// the cubic swing up on the other side.
-double limited(double outer, double near, double far) { return std::max(outer, near - 2 - 3 * std::abs(far - near)); }
-
 } // namespace
 
 double interpolateLog(const Stencil& s, const std::array<double, 4>& values)
@@ -36,7 +32,7 @@ double interpolateLog(const Stencil& s, const std::array<double, 4>& values)
         l0 = foretold(l1, l2, counts(3) ? &l3 : nullptr);
     if (!counts(3))
         l3 = foretold(l2, l1, counts(0) ? &l0 : nullptr);
-    return std::exp(s.weight[0] * limited(l0, l1, l2) + s.weight[1] * l1 + s.weight[2] * l2 + s.weight[3] * limited(l3, l2, l1));
+    return std::exp(LogarithmBetween<double>(s.weight.data(), t, false, 1)(l0, l1, l2, l3));
 }
 
 } // namespace sky::physics

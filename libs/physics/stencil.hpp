@@ -62,6 +62,43 @@ inline Stencil mirroredStencil(double position, int n)
             t};
 }
 
+/// The logarithm of light between the two levels in the middle of four, from those at the levels: the cubic of a stencil, but for an outer level
+/// that lies decades deeper than the inner two differ. It would make the curve swing up on the other side, and a sweep would find light there
+/// that nobody sent, more with each event. So it counts as one that lies two e-foldings deeper and three times their difference, did it stand
+/// as far away as they from each other.
+template<typename Weight>
+class LogarithmBetween
+{
+public:
+    /// \param weight     [4] of the stencil
+    /// \param between    of the stencil
+    /// \param lowest     whether there is no level below the two: then the last one tells both slopes
+    /// \param eFolding   one, in the unit of the logarithms
+    LogarithmBetween(const Weight* weight, Weight between, bool lowest, Weight eFolding)
+        : before_(weight[0]), step_(weight[2] + weight[3]), after_(weight[3]), mostBefore_(between * (1 - between) * (1 - between)),
+          mostAfter_(between * (1 - between) * (lowest ? 1 : between)), eFolding_(eFolding)
+    {
+    }
+
+    /// \tparam T  a number, or a vector of them
+    template<typename T>
+    [[gnu::always_inline]] inline T operator()(T a, T b, T c, T d) const
+    {
+        const T step = c - b, room = eFolding_ + Weight(1.5) * (step < 0 ? -step : step);
+        const T before = before_ * (a - b), after = after_ * (d - c), mostBefore = mostBefore_ * room, mostAfter = mostAfter_ * room;
+        return b + step_ * step + (before < mostBefore ? before : mostBefore) + (after < mostAfter ? after : mostAfter);
+    }
+
+private:
+    Weight before_, step_, after_, mostBefore_, mostAfter_, eFolding_;
+};
+
+/// Of natural logarithms, by a stencil of levels.
+inline LogarithmBetween<double> logarithmBetween(const Stencil& levels)
+{
+    return {levels.weight.data(), levels.between, levels.index[0] == levels.index[1], 1};
+}
+
 /// Interpolates positive quantities that span decades, such as light along the axis of the Sun: the stencil of a uniform axis,
 /// applied to logarithms. A zero is an edge of darkness somewhere in the cells beside it, and nothing is known of its logarithm: an
 /// outer neighbour that is dark is replaced by what the parabola through the others foretells, or less; between a lit and a dark node

@@ -331,17 +331,19 @@ void bakeIrradiance(const BakeJob& job, const RadiationField* field, bool perEve
         std::vector<float> values;
         for (const double h : altitudes) {
             const auto a = from.altitudeStencil(h);
+            const auto between = physics::logarithmBetween(a);
             for (const double e : suns(h)) {
                 const auto b = from.sunStencil(from.sunPosition(e));
                 for (int w = 0; w < wavelengths; ++w) {
                     double logarithm = 0;
-                    for (int i = 0; i < 4; ++i)
-                        for (int j = 0; j < 4; ++j)
-                            logarithm +=
-                                a.weight[i] * b.weight[j] *
-                                std::log(std::max(
-                                    grid[(std::size_t(a.index[i]) * from.sunCount() + from.sunAsHigh(b.index[j])) * wavelengths + w],
-                                    physics::darkness));
+                    for (int j = 0; j < 4; ++j) {
+                        const auto level = [&](int i) {
+                            return std::log(
+                                std::max(grid[(std::size_t(a.index[i]) * from.sunCount() + from.sunAsHigh(b.index[j])) * wavelengths + w],
+                                         physics::darkness));
+                        };
+                        logarithm += b.weight[j] * between(level(0), level(1), level(2), level(3));
+                    }
                     values.push_back(static_cast<float>(std::exp(logarithm) * medium.solarIrradiance[w]));
                 }
             }

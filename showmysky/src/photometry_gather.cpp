@@ -45,10 +45,24 @@ struct FieldNode {
     std::ptrdiff_t middle;         ///< from the first to the two in the middle
     std::array<float, 16> weights; ///< [altitude][sun]
     std::array<float, 4> straight; ///< [altitude][sun], of the four in the middle
-    const float* harmonics;        ///< [lm][node], Y_lm of the ray's direction
+    std::array<float, 4> altitude; ///< weights of the stencil, whose place between the middle two is `between`
+    std::array<float, 4> suns;     ///< weights
+    float between;
+    const float* harmonics; ///< [lm][node], Y_lm of the ray's direction
     int nodes;
     const Block* scattering; ///< [scatterer][block]
 };
+
+/// The logarithm of the mean.
+SKY_INLINE Lanes logarithmAt(const FieldNode& n, const physics::LogarithmBetween<float>& logarithm, int block)
+{
+    Lanes sum = all(0);
+    for (int j = 0; j < 4; ++j) {
+        const std::ptrdiff_t at = block + j * n.sun;
+        sum += n.suns[j] * logarithm(n.corners[0][at].v, n.corners[1][at].v, n.corners[2][at].v, n.corners[3][at].v);
+    }
+    return sum;
+}
 
 /// Between sixteen neighbours.
 SKY_INLINE Lanes interpolated(const FieldNode& n, int at)
@@ -74,8 +88,9 @@ void addField(const FieldNode& from, int degree, int bentDegree, int scatterers,
               Block* sum)
 {
     const FieldNode n = from; // whose fields no store below can change
+    const physics::LogarithmBetween<float> between(n.altitude.data(), n.between, n.corners[0] == n.corners[1], 1);
     for (int b = 0; b < blocks; ++b) {
-        const Lanes logarithm = interpolated(n, b);
+        const Lanes logarithm = logarithmAt(n, between, b);
         byDegree[0].v = all(n.harmonics[0]);
         int lm = 1;
         for (int l = 1; l <= bentDegree; ++l) {
@@ -332,11 +347,14 @@ void FastGather::gatherMultiple(FastScratch& scratch, const double muSun, const 
         field.middle = (1 - ahead) * field.sun;
         const auto& altitudes = scratch.fieldRows[k];
         for (int i = 0; i < 4; ++i) {
+            field.altitude[i] = static_cast<float>(altitudes.weight[i]);
+            field.suns[i] = static_cast<float>(sun.weight[(i + ahead) % 4]);
             field.corners[i] = &field_[(static_cast<std::size_t>(altitudes.index[i]) * suns + first) * harmonics * blocks_];
             for (int j = 0; j < 4; ++j)
                 field.weights[4 * i + j] = static_cast<float>(altitudes.weight[i] * sun.weight[(j + ahead) % 4]);
         }
         const float up = static_cast<float>(altitudes.between), on = static_cast<float>(sun.between);
+        field.between = up;
         field.straight = {(1 - up) * (1 - on), (1 - up) * on, up * (1 - on), up * on};
         field.harmonics = &scratch.harmonics[k];
         field.scattering = &set.weights[k * scatterers_ * blocks_];

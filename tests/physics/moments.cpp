@@ -69,6 +69,27 @@ TEST_CASE("stencils over altitude: a jump between two close levels does not thro
     }
 }
 
+TEST_CASE("light between levels: a cubic of its logarithm, but of a level in darkness beside it nothing comes back brighter")
+{
+    const MomentGrid grid(earth, {0, 2e3, 2.5e3, 4e3, 6e3, 9e3}, -0.3, 16); // next to a level as uneven as it may be
+    const auto at = [&](const Stencil& s, const std::vector<double>& logs) {
+        return logarithmBetween(s)(logs[s.index[0]], logs[s.index[1]], logs[s.index[2]], logs[s.index[3]]);
+    };
+    const std::vector<double> gentle{-1, -1.5, -1.6, -2.5, -2.2, -1.4};
+    for (double h = 0; h <= 9e3; h += 123) {
+        const Stencil s = grid.altitudeStencil(h);
+        CHECK(at(s, gentle) == Approx(through(s, [&](int k) { return gentle[k]; })).epsilon(1e-12));
+    }
+    // e^0.3: what two levels two e-foldings deeper lift the middle of two that are even. A cubic has up to e^15 times their light.
+    for (const std::vector<double>& logs :
+         {std::vector<double>{-69, -69, -10, -10, -10, -10}, {-10, -10, -10, -69, -69, -69}, {-69, -10, -10.1, -69, -5, -5}})
+        for (double h = 0; h <= 9e3; h += 50) {
+            const Stencil s = grid.altitudeStencil(h);
+            INFO("h " << h << " logarithms from " << logs[0]);
+            CHECK(at(s, logs) <= std::max(logs[s.index[1]], logs[s.index[2]]) + 0.3);
+        }
+}
+
 TEST_CASE("stencils over the Sun: partition of unity, straight lines kept, slopes continuous, over the zenith too")
 {
     const MomentGrid grid(earth, unevenLevels, -0.3, 9);

@@ -84,6 +84,40 @@ TEST_CASE("iteration: all orders are more than four and no more than the remaind
     CHECK(all.total.at(0, world.grid.sunCount() - 1)[0] > many.total.at(0, world.grid.sunCount() - 1)[0] - 1e-4);
 }
 
+TEST_CASE("iteration: above air that lets nothing through, no event is brighter than the one before", "[gl]")
+{
+    const auto context = gl::testing::context();
+    if (!context)
+        return;
+    // A scatterer 16 deep on black air, and levels at the edge between them as uneven as fieldLevels leaves them: light comes down to where there
+    // was none from event to event, and falls by decades from each level to the next.
+    physics::Medium medium =
+        test::withDensity(test::layer(1, 0.999, 0, test::isotropicPhase, 13.8e6), {0, 20e3, 20.001e3, 28e3}, {0, 0, 1, 1});
+    medium.species[0].extinctionCrossSection = {0.002};
+    physics::Species black = medium.species[0];
+    black.name = "black";
+    black.singleScatteringAlbedo = {0};
+    black.extinctionCrossSection = {10};
+    black.numberDensity = {1, 1, 0, 0};
+    medium.species.push_back(black);
+    const SmallWorld world(medium, smallSettings(0));
+    const physics::MomentGrid grid(world.profile.planet(),
+                                   {0, 19e3, 19.8e3, 20.3e3, 21.8e3, 23.2e3, 24.4e3, 25.4e3, 26.2e3, 26.8e3, 27.2e3, 27.6e3, 27.9e3, 28e3},
+                                   world.grid.lowestElevation(), 28);
+    const auto field = solver::iterate(context->api(), world.scene(), grid, world.settings, {30, false, 0}, true, [](double) {});
+    const auto brightest = [](const physics::Moments& event) {
+        double most = 0;
+        for (int a = 0; a < event.grid.altitudeCount(); ++a)
+            for (int j = 0; j < event.grid.sunCount(); ++j)
+                most = std::max(most, std::exp(event.at(a, j)[0]));
+        return most;
+    };
+    for (std::size_t n = 1; n < field.perEvent.size(); ++n) {
+        INFO("event " << n + 1);
+        CHECK(brightest(field.perEvent[n]) < 1.01 * brightest(field.perEvent[n - 1]));
+    }
+}
+
 TEST_CASE("iteration: late events of deep air, told at once, are what they add up to one by one", "[gl]")
 {
     const auto context = gl::testing::context();
