@@ -10,9 +10,6 @@ namespace {
 
 /// Events from which the rest is told: each that is kept takes the memory of a whole field.
 constexpr std::size_t mostKept = 8;
-/// Changes of which the least counts where it is told how they fall: a series closed by few events changes by leaps.
-constexpr std::size_t changesTogether = 4;
-
 void addTo(std::vector<double>& sum, const std::vector<double>& values, double factor)
 {
     sum.resize(values.size(), 0.);
@@ -46,6 +43,13 @@ double remainderAfter(const double change, const double ratio)
 {
     const double falling = std::min(ratio, 0.99);
     return change * std::max(1., falling / (1 - falling));
+}
+
+double remainderOf(const std::vector<double>& changes)
+{
+    const auto middle = changes.end() - changesTogether;
+    const double before = *std::min_element(middle - changesTogether, middle), last = *std::min_element(middle, changes.end());
+    return remainderAfter(changes.back(), std::pow(last / std::max(before, 1e-300), 1. / changesTogether));
 }
 
 double leftAfter(const double before, const double now, const int event, const int most)
@@ -85,11 +89,7 @@ void EventSeries::add(const Sums& event)
 
 double EventSeries::remainder() const
 {
-    if (changes_.size() < 2 * changesTogether)
-        return remainderAfter(change(), 1);
-    const auto middle = changes_.begin() + changesTogether;
-    const double before = *std::min_element(changes_.begin(), middle), last = *std::min_element(middle, changes_.end());
-    return remainderAfter(change(), std::pow(last / std::max(before, 1e-300), 1. / changesTogether));
+    return changes_.size() < 2 * changesTogether ? remainderAfter(change(), 1) : remainderOf(changes_);
 }
 
 Sums EventSeries::total() const

@@ -22,6 +22,13 @@ double relativeChange(const std::vector<double>& now, const std::vector<double>&
 /// What is left of light that changed last by `change`, where each change is `ratio` times the one before: at least the last one again.
 double remainderAfter(double change, double ratio);
 
+/// Changes of which the least counts where it is told how they fall: a series closed by few events changes by leaps.
+constexpr std::size_t changesTogether = 4;
+
+/// What is left after the last of some changes, where they go on falling as from the last but changesTogether to the last ones.
+///   changes  the last ones, 2 changesTogether at least
+double remainderOf(const std::vector<double>& changes);
+
 /// What all events after the first `most` will change, where changes go on falling as the power of the number of events as which they fell
 /// since half as many, as those of light that spreads by diffusion: infinite where they fall as its inverse, or hardly faster.
 ///   before, now  changes by event number `event` / 2 and `event`, event <= most

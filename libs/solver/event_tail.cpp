@@ -55,11 +55,9 @@ void EventTail::improve(const Sums& next, const Sums& earlier, const LayeredLigh
     judge(missing, least);
     add(missing, layers, least);
     bound(earlier);
-    before_ = change_;
-    change_ = relativeChange(means(), then);
-    if (change_ < least_) // no number is no gain
-        least_ = change_;
-    ++sweeps_;
+    changes_.push_back(relativeChange(means(), then));
+    if (changes_.back() < least_) // no number is no gain
+        least_ = changes_.back();
 }
 
 void EventTail::judge(const Sums& missing, const double least)
@@ -155,11 +153,14 @@ void EventTail::bound(const Sums& earlier)
         }
 }
 
-bool EventTail::stalls() const { return least_ > std::pow(leastGain, sweeps_ - firstSweeps); }
+bool EventTail::stalls() const { return least_ > std::pow(leastGain, int(changes_.size()) - firstSweeps); }
 
 double EventTail::remainder() const
 {
-    return bounded_ ? std::numeric_limits<double>::infinity() : remainderAfter(change_, change_ / std::max(before_, 1e-300));
+    if (bounded_ || changes_.empty())
+        return std::numeric_limits<double>::infinity();
+    const double last = changes_.back(), before = changes_.size() > 1 ? changes_.end()[-2] : 1;
+    return settled() ? remainderOf(changes_) : remainderAfter(last, last / std::max(before, 1e-300));
 }
 
 } // namespace sky::solver

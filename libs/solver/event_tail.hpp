@@ -21,9 +21,11 @@ public:
     ///   next     light(), scattered or reflected once more
     ///   earlier  the events before, which count where it is told how much changed
     void improve(const Sums& next, const Sums& earlier, const LayeredLight& layers);
-    /// What is left, rms of its part of all light: the last change, and those that will follow if each is in proportion to the one before
-    /// as that was.
+    /// What is left, rms of its part of all light: the last change, and those that will follow if changes go on falling as the last ones did.
+    /// Of few sweeps that is a guess.
     double remainder() const;
+    /// Whether there were enough sweeps to tell how changes fall, beside leaps from one to the next.
+    bool settled() const { return changes_.size() >= 2 * changesTogether; }
     /// Whether sweeps on the whole gain too little: then layers don't tell where light goes, and the tail is of no use. In a gap under a deep
     /// cloud it goes far to the side, into the night.
     bool stalls() const;
@@ -42,9 +44,9 @@ private:
     const Sums& event_;
     int suns_, wavelengths_, harmonics_;
     Sums light_;
-    double change_ = 1, before_ = 1, least_ = 1;
-    int sweeps_ = 0;
-    bool bounded_ = false; ///< whether the last sweep left more light than there can be
+    std::vector<double> changes_; // by each sweep
+    double least_ = 1;            // of them
+    bool bounded_ = false;        ///< whether the last sweep left more light than there can be
     /// [sun][wavelength]: how far layers are followed, 0..1; less where they told wrong, as in twilight, where light comes from beside.
     std::vector<double> trust_;
     std::vector<double> wrong_; // [sun][wavelength]: by how much its light was wrong at the last sweep, rms of its part

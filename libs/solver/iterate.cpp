@@ -16,6 +16,8 @@ namespace {
 using base::pi;
 /// Events that are computed one by one where all are wanted. What then is not closed dies out slowly: light in deep air.
 constexpr int mostSingly = 16;
+/// What is told as left, as a part of all light, from which on nothing is told.
+constexpr double untold = 1;
 /// Times that light to begin with is told anew, from its own shape.
 constexpr int reshapings = 3;
 
@@ -251,7 +253,7 @@ private:
 struct Closed {
     Sums earlier;     ///< events before the last that was computed by itself
     Sums rest;        ///< that one and all that follow
-    double remainder; ///< what is left, as EventTail says
+    double remainder; ///< what is left, as EventTail says; infinite where that tells nothing
 };
 
 /// Where each event is so little weaker than the last that those to come are told from sweeps over all of them: as many as it takes, or as
@@ -266,15 +268,21 @@ Closed close(Sweeps& sweeps, const Sums& sum, const Sums& last, double tolerance
     for (int i = 0; i < reshapings; ++i)
         tail.begin(sweeps.layers(&tail.light()));
     const int next = count + 1;
+    bool settled = false; // whether what is told of the answer is
     do {
         const Sums swept = sweeps.scattered(sweeps.toMoments(tail.light()), next, breath);
         tail.improve(swept, result.earlier, sweeps.layers(&tail.light()));
         ++count;
-        if (!(tail.remainder() >= result.remainder)) { // near the end changes leap
+        // Near the end changes leap. What few sweeps made guess is worth less than what more of them tell.
+        const bool better = !(tail.remainder() >= result.remainder), surer = tail.settled() && !settled && std::isfinite(tail.remainder());
+        if (better || surer) {
             result.remainder = tail.remainder();
             result.rest = tail.light();
+            settled = tail.settled();
         }
     } while (!(result.remainder < tolerance) && !tail.stalls());
+    if (!(result.remainder < untold))
+        result.remainder = std::numeric_limits<double>::infinity();
     return result;
 }
 
@@ -325,6 +333,8 @@ RadiationField iterate(const gl::Api& api, const Scene& scene, const physics::Mo
             field.remainder = std::max(field.remainder, promised);
             break;
         }
+        if (event > mostSingly && !(promised < untold))
+            break; // neither way leads anywhere
         halfwayChange = series.change();
         nextLook *= 2;
     }

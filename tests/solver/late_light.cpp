@@ -147,6 +147,23 @@ TEST_CASE("event tail: where nothing is known of what follows, it is the series 
     }
 }
 
+TEST_CASE("event tail: after a leap the next change is small, and what is told as left is not")
+{
+    const auto layers = noLayers(3);
+    const double part = 0.93;
+    const solver::Sums event = lightOf({0.1, 0.2, 0.05}), earlier = lightOf({0, 0, 0});
+    solver::EventTail tail(event, layers, 1);
+    for (int n = 1; n <= 20; ++n) {
+        tail.improve(times(tail.light(), n % 6 == 0 ? 1.1 * part : part), earlier,
+                     layers); // as where a column is trusted less from then on
+        CHECK(tail.settled() == (n >= 8));
+        const double all = event.moments[0] / (1 - part), left = (all - tail.light().moments[0]) / all;
+        INFO("sweep " << n << " left " << left);
+        if (tail.settled())
+            CHECK(tail.remainder() > 0.5 * left);
+    }
+}
+
 TEST_CASE("event tail: changes that hardly fall are no way to an end")
 {
     const auto layers = noLayers(3);
