@@ -141,6 +141,18 @@ void Profile::findUpperEdges(const Medium& medium)
     std::reverse(edges_.begin(), edges_.end());
 }
 
+int Profile::forShadows(const int usual, const double sunRadius) const
+{
+    constexpr double blurred = 20; // diameters of the Sun in the dip for which the usual nodes are enough: an edge 100 km above the Earth
+    constexpr double most = 3;
+    double highest = 0;
+    for (const UpperEdge& edge : edges_)
+        if (edge.altitude < (1 - 1e-5) * planet_.topOfAtmosphere)
+            highest = std::max(highest, edge.altitude);
+    const double detail = -horizonElevation(planet_, highest) / std::max(2 * blurred * sunRadius, 1e-30);
+    return static_cast<int>(std::lround(usual * std::clamp(detail, 1., most)));
+}
+
 Profile Profile::withShellsUnderEdges() const
 {
     std::vector<double> altitudes;

@@ -35,6 +35,11 @@ public:
     double steepness(int interval) const { return steepness_[interval]; }
     /// How often the way to an upper edge is halved in interval k, 0 where no edge is above.
     double halvings(int interval) const { return halvings_[interval]; }
+    /// How many of what is usual are needed for sunlight (nodes of a ray; altitudes, elevations of a table), up to three times as many: where air ends
+    /// at once below the top, its shadows and what shines past them have edges, which the Sun's disc blurs the less the smaller it is
+    /// against the dip of the horizon up there.
+    ///   sunRadius  angular, rad
+    int forShadows(int usual, double sunRadius) const;
 
 private:
     /// Densities between two shells, as the compiler's vectors want them, [interval][species]: exp(start + slope dh) where `logarithmic`

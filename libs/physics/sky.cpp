@@ -104,7 +104,8 @@ void SkyEvaluator::radiance(RayTracer& tracer, const Moments* const moments, con
     std::fill(result, result + optics_.wavelengths, 0.);
     const bool ground = hitsGround(profile_.planet(), altitude, mu);
     if (parts.single)
-        singleAlong(tracer.trace(altitude, mu, parts.singleNodes, ground), muSun, nu, parts.exactPhase, result, {},
+        singleAlong(tracer.trace(altitude, mu, profile_.forShadows(parts.singleNodes, medium_.sunAngularRadius), ground), muSun, nu,
+                    parts.exactPhase, result, {},
                     aureole_ && parts.exactPhase ? aureole_->depths(tracer, altitude, muSun, std::acos(std::clamp(nu, -1., 1.)))
                                                  : std::vector<double>{});
     if (parts.multiple && moments)

@@ -20,7 +20,7 @@ class SkyEvaluator
 public:
     struct Parts {
         bool single = true, multiple = true;
-        int singleNodes = 96; ///< along the ray, for the direct light
+        int singleNodes = 96; ///< along the ray, for the direct light; more where shadows have edges: Profile::forShadows
         int multipleNodes = 24;
         bool exactPhase = true; ///< false: phase functions truncated at the degree, as inside the iteration
     };

@@ -197,8 +197,9 @@ SunTable::SunTable(const Profile& profile, const Optics& optics, const double su
                    const int elevations, const base::StopRequest& stop)
     : planet_(profile.planet()), sunRadius_(sunAngularRadius), sunless_(findSunlessAltitude(profile, optics)),
       scale_(usualScale * sunsetShare(profile, largestExtinctions(optics), sunAngularRadius)),
-      elevations_(static_cast<int>(std::lround(elevations * axisLength(scale_, pi / 2) / axisLength(usualScale, pi / 2)))),
-      wavelengths_(optics.wavelengths), altitudes_(tableAltitudes(profile, optics, altitudeCount)),
+      elevations_(static_cast<int>(
+          std::lround(profile.forShadows(elevations, sunAngularRadius) * axisLength(scale_, pi / 2) / axisLength(usualScale, pi / 2)))),
+      wavelengths_(optics.wavelengths), altitudes_(tableAltitudes(profile, optics, profile.forShadows(altitudeCount, sunAngularRadius))),
       depth_((altitudes_.size() + 1) * elevations_ * optics.wavelengths)
 {
     for (const double h : altitudes_)

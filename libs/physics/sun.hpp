@@ -17,7 +17,8 @@ class SunTable
 public:
     /// Axis in the elevation x above the lowest Sun that still shows: u = asinh(x / scale) / asinh(range / scale).
     ///   elevations  on a planet with the Earth's sunset (sunsetShare() of 1); where the Sun goes out over a smaller angle the scale
-    ///               is smaller in proportion, and there are so many more elevations that steps elsewhere stay as long
+    ///               is smaller in proportion, and there are so many more elevations that steps elsewhere stay as long; more also where
+    ///               shadows have edges (Profile::forShadows)
     ///   stop        asked for every Sun of every altitude; throws base::Stopped
     SunTable(const Profile& profile, const Optics& optics, double sunAngularRadius, int altitudes = usualAltitudes,
              int elevations = usualElevations, const base::StopRequest& stop = {});

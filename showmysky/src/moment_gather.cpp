@@ -137,10 +137,11 @@ void MomentGather::trace(int index, physics::RayTracer& tracer) const
     if (!entry)
         return;
     ray.lit = true;
-    const auto single = tracer.trace(entry->altitude, entry->mu, singleNodes, ray.ground);
+    const int nodes = atmosphere_.profile.forShadows(singleNodes, static_cast<double>(sunRadius_));
+    const auto single = tracer.trace(entry->altitude, entry->mu, nodes, ray.ground);
     for (const auto& node : single.nodes)
         ray.single.push_back(nodeOf(entry->node(node)));
-    const auto rows = static_cast<std::size_t>(singleNodes * scatterers_);
+    const auto rows = single.nodes.size() * static_cast<std::size_t>(scatterers_);
     ray.singleWeights.assign(rows * static_cast<std::size_t>(stride_), 0.f);
     for (std::size_t i = 0; i < rows; ++i)
         for (int w = 0; w < wavelengths; ++w) {

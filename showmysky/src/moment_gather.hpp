@@ -19,7 +19,8 @@ class MomentGather
 public:
     /// Rays and azimuths that are computed; the tables drawn are interpolated from these.
     static constexpr int halfViews = 32, azimuths = 33;
-    static constexpr int singleNodes = 48, multipleNodes = 20;
+    static constexpr int singleNodes = 48; ///< for sunlight; more where shadows have edges: physics::Profile::forShadows
+    static constexpr int multipleNodes = 20;
 
     /// \param moments may be null: then there is no multiple scattering
     MomentGather(const Atmosphere& atmosphere, const Phases& phases, const sky::physics::Moments* moments,

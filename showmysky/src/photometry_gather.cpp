@@ -184,6 +184,12 @@ void interpolatePhase(const Block* low, const Block* high, float x, bool logarit
     }
 }
 
+Effort forShadows(Effort effort, const physics::Profile& profile, const double sunRadius)
+{
+    effort.singleNodes = profile.forShadows(effort.singleNodes, sunRadius);
+    return effort;
+}
+
 } // namespace
 
 // Opposite to a sharp peak the degrees nearly cancel: what is taken as straight there was 70 % of the light.
@@ -191,8 +197,9 @@ FastGather::FastGather(const physics::Medium& medium, const physics::Optics& opt
                        const physics::Moments* moments, const Effort& effort, const physics::Aureole* aureole)
     : optics_(optics), sun_(sun), moments_(moments),
       aureole_(aureole && aureole->any() ? aureole : nullptr), planet_{medium.planetRadius, medium.topOfAtmosphere},
-      profile_(physics::Profile(medium, effort.profileTolerance).withShellsUnderEdges()), folder_(profile_, optics, effort),
-      wavelengths_(optics.wavelengths), blocks_(folder_.blocks()), scatterers_(folder_.scatterers()), degree_(optics.degree),
+      profile_(physics::Profile(medium, effort.profileTolerance).withShellsUnderEdges()),
+      folder_(profile_, optics, forShadows(effort, profile_, medium.sunAngularRadius)), wavelengths_(optics.wavelengths),
+      blocks_(folder_.blocks()), scatterers_(folder_.scatterers()), degree_(optics.degree),
       bentDegree_(physics::truncates(optics) ? optics.degree : physics::bentDegree(optics)), sunRadius_(medium.sunAngularRadius),
       angles_(medium.scatteringAngles)
 {

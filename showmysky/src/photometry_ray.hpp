@@ -11,7 +11,7 @@ namespace showmysky {
 
 /// How much work a question may cost. The default holds 0.1 % by day, also in haze (tests/showmysky/photometry.cpp, photometry_haze.cpp).
 struct Effort {
-    int singleNodes = 80;   ///< along a ray, for the direct light
+    int singleNodes = 80;   ///< along a ray, for the direct light; more where shadows have edges
     int multipleNodes = 20; ///< for the field
     sky::physics::CellLimits cell{1, 0.12, 0.5};
     double profileTolerance = 1e-3; ///< relative, of densities

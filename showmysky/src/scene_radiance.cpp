@@ -54,7 +54,7 @@ std::vector<double> Scene::spectralRadiance(const std::array<double, 3>& directi
             ratios = eclipse_->ratios(view, ground);
     }
 
-    auto ray = tracer.trace(entry->altitude, entry->mu, parts.singleNodes, ground);
+    auto ray = tracer.trace(entry->altitude, entry->mu, atmosphere_->profile.forShadows(parts.singleNodes, sunRadius()), ground);
     std::vector<physics::MiddleOfLight> middles(eclipse ? ray.nodes.size() : 0);
     for (std::size_t k = 0; k < ray.nodes.size(); ++k) {
         ray.nodes[k] = entry->node(ray.nodes[k]);

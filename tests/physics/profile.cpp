@@ -174,3 +174,17 @@ TEST_CASE("profile: the optical depth of a shell of many scale heights is that o
         CHECK(depthInShell(linear, {3}, 0, 0, h) == Approx(3 * h * (1 - 0.5 * h / 28e3)).epsilon(1e-9));
     }
 }
+
+TEST_CASE("profile: sunlight needs more nodes only where air has edges inside that no Sun blurs")
+{
+    const double small = 0.00465;
+    const auto edge = [](double top) {
+        return withDensity(sky::test::layer(1, 1, 0, sky::test::isotropicPhase, 6.4e6), {0, top, top * 1.000001, 120e3},
+                           {1, 1, 0, 0});
+    };
+    CHECK(Profile(edge(2e3)).forShadows(100, 0) == 300);
+    CHECK(Profile(edge(2e3)).forShadows(100, small) == 100);
+    CHECK(Profile(edge(60e3)).forShadows(100, 0.5 * small) == Approx(100 * std::sqrt(2 * 60e3 / 6.4e6) / (20 * small)).epsilon(0.02));
+    CHECK(Profile(withDensity(base(), {0, 1000}, {1, 1})).forShadows(100, 0) == 100); // the top is no shadow's edge
+    CHECK(Profile(sky::test::exponentialAir(0.3)).forShadows(100, 0) == 100);
+}

@@ -173,6 +173,41 @@ TEST_CASE("after sunset, twice as many samples along a ray change little, and tw
     CHECK(fine < 0.6 * coarse);
 }
 
+TEST_CASE("a Sun without size through the gap between two layers with edges: nodes and table find what comes through")
+{
+    // Scene 25 of seed 11: layers from the ground to a fifth of the air and from 0.3 to 0.6 of it, and some exponential air everywhere.
+    const double top = 2.15e5;
+    auto medium = sky::test::withDensity(sky::test::layer(1, 1, 0, sky::test::isotropicPhase, 6.55e7),
+                                         {0, 0.2 * top, 0.2000001 * top, 0.3 * top, 0.3000001 * top, 0.6 * top, 0.6000001 * top, top},
+                                         {1, 1, 0, 0, 1 / 3., 1 / 3., 0, 0});
+    medium.species[0].extinctionCrossSection = {1.55e-5};
+    medium.species.push_back(medium.species[0]);
+    for (std::size_t i = 0; i < medium.altitudes.size(); ++i)
+        medium.species[1].numberDensity[i] = std::exp(-medium.altitudes[i] / 2.56e4);
+    medium.species[1].extinctionCrossSection = {6e-6};
+    const Profile profile(medium);
+    const Optics optics = makeOptics(medium, 2, false);
+    RayTracer tracer(profile, optics);
+    const auto light = [&](const SunTable& sun, int nodes, double view, double zenith) {
+        SkyEvaluator::Parts parts;
+        parts.multiple = false;
+        parts.singleNodes = nodes;
+        double result;
+        SkyEvaluator(medium, profile, optics, sun)
+            .radiance(tracer, nullptr, 0, std::cos(view), std::cos(zenith), std::cos(view - zenith), parts, &result);
+        return result;
+    };
+    const SunTable usual(profile, optics, 0), fine(profile, optics, 0, 4 * SunTable::usualAltitudes, 4 * SunTable::usualElevations);
+    double squares = 0;
+    int count = 0;
+    for (double view = 0.3; view < 1.35; view += 0.1)
+        for (const double zenith : {1.605, 1.613, 1.62}) {
+            squares += std::pow(light(usual, 96, view, zenith) / light(fine, 1000, view, zenith) - 1, 2);
+            ++count;
+        }
+    CHECK(std::sqrt(squares / count) < 0.05); // with a third of the nodes, altitudes and elevations 0.116
+}
+
 TEST_CASE("a cloud's surface is seen where it is, however slanted the ray that enters it")
 {
     // Optical depth 1 a metre, and a field that falls by e a metre below the surface: from outside, flat, 1 / (1 + mu) is seen.
