@@ -84,6 +84,33 @@ double peakShare(const std::vector<double>& moments, const int degree)
     return weights > 0 ? std::clamp(std::max(sum / weights, faded), 0., 0.999) : 0;
 }
 
+/// Scattering angles, rad, at the middles of `peakParts` equal shares of a truncated peak: of what the phase function is above its series, from the
+/// forward direction to where both first meet.
+///   kept     moments of the series, (1 - f) lambda'_l
+///   returns  [peakParts]
+std::vector<double> anglesOfPeak(const Medium& medium, const Species& species, const int w, const std::vector<double>& kept)
+{
+    constexpr double nearest = 1e-5, step = 1.02;
+    const int degree = static_cast<int>(kept.size()) - 1;
+    std::vector<double> polynomials(kept.size()), angles{0}, shares{0};
+    for (double angle = nearest; angle < base::pi; angle *= step) {
+        legendre(degree, std::cos(angle), polynomials.data());
+        double peak = phaseFunctionAt(medium, species, angle, w);
+        for (int l = 0; l <= degree; ++l)
+            peak -= (2 * l + 1) / (4 * base::pi) * kept[l] * polynomials[l];
+        if (!(peak > 0))
+            break;
+        shares.push_back(shares.back() + peak * std::sin(angle) * (angle - angles.back()));
+        angles.push_back(angle);
+    }
+    std::vector<double> result;
+    for (int part = 0; part < peakParts; ++part) {
+        const double share = shares.back() * (part + 0.5) / peakParts;
+        result.push_back(angles[std::lower_bound(shares.begin(), shares.end() - 1, share) - shares.begin()]);
+    }
+    return result;
+}
+
 } // namespace
 
 double verticalColumn(const Medium& medium, const Species& species)
@@ -127,6 +154,7 @@ Optics makeOptics(const Medium& medium, const int degree, const bool truncate)
     optics.scattering.resize(optics.species * wavelengths);
     optics.truncation.resize(optics.species * wavelengths);
     optics.blurred.resize(optics.species * wavelengths);
+    optics.peakAngles.resize(optics.species * wavelengths * peakParts);
     optics.moments.resize(optics.species * (degree + 1) * wavelengths);
     std::vector<double> allDepths(wavelengths, 0.);
     std::vector<std::vector<double>> depthsOf;
@@ -175,6 +203,11 @@ Optics makeOptics(const Medium& medium, const int degree, const bool truncate)
                     scaled, [&](double angle) { return 4 * base::pi * phaseFunctionAt(medium, species, angle, w) / (1 - f); }, blurred < 0);
             for (int l = 0; l <= degree; ++l)
                 optics.moments[(s * (degree + 1) + l) * wavelengths + w] = scaled[l];
+            if (!(f > 0))
+                continue;
+            std::transform(scaled.begin(), scaled.end(), scaled.begin(), [f](double moment) { return (1 - f) * moment; });
+            const auto angles = anglesOfPeak(medium, species, w, scaled);
+            std::copy(angles.begin(), angles.end(), &optics.peakAngles[(s * wavelengths + w) * peakParts]);
         }
         if (scatters)
             optics.scatterers.push_back(s);

@@ -2,6 +2,7 @@
 #include "base/angles.hpp"
 #include "base/parallel.hpp"
 #include "physics/limb.hpp"
+#include "physics/peak_sunlight.hpp"
 #include "physics/quadrature.hpp"
 #include "physics/ray.hpp"
 #include "physics/table_axes.hpp"
@@ -252,12 +253,41 @@ SunTable::SunTable(const Profile& profile, const Optics& optics, const double su
         for (size_t row = thread; row <= altitudes_.size(); row += threads)
             fillRow(row, tracer);
     });
+    if (PeakSunlight::matters(profile, optics))
+        throwAside(profile, optics, altitudeCount, elevations, stop);
     std::vector<double> even(elevations_);
     std::iota(even.begin(), even.end(), 0.);
     const size_t perRow = size_t(elevations_) * wavelengths_;
     for (size_t row = 0; row <= altitudes_.size(); ++row)
         straighten(even, &depth_[row * perRow], wavelengths_, wavelengths_);
     straighten(measures_, depth_.data(), perRow, static_cast<int>(perRow));
+}
+
+void SunTable::throwAside(const Profile& profile, const Optics& optics, const int altitudeCount, const int elevations,
+                          const base::StopRequest& stop)
+{
+    const SunTable through(profile, PeakSunlight::unscaled(optics), sunRadius_, altitudeCount, elevations, stop);
+    base::parallel([&](int thread, int threads) {
+        PeakSunlight peaks(profile, optics, through, sunRadius_);
+        std::vector<double> light(wavelengths_);
+        for (size_t row = thread; row <= altitudes_.size(); row += threads) {
+            const bool onGround = row == altitudes_.size();
+            const double h = onGround ? 0 : altitudes_[row], horizon = this->horizon(h), range = pi / 2 - horizon + sunRadius_;
+            peaks.place(h, onGround);
+            for (int k = 0; k < elevations_; ++k) {
+                base::stopIfAsked(stop);
+                const double elevation = horizon - sunRadius_ + scale_ * std::sinh(axisLength(scale_, range) * k / (elevations_ - 1));
+                const double visible = visibleDiscFraction(elevation - horizon, sunRadius_);
+                const double counts = std::clamp(3 * (1 - elevation / PeakSunlight::highest), 0., 1.);
+                if (!(counts > 0))
+                    break;
+                peaks.transmittance(elevation, light.data());
+                double* const depth = &depth_[(row * elevations_ + k) * wavelengths_];
+                for (int w = 0; w < wavelengths_; ++w)
+                    depth[w] += counts * ((light[w] > 0 ? std::clamp(std::log(visible / light[w]), 0., opaque) : opaque) - depth[w]);
+            }
+        }
+    });
 }
 
 SunTable::Row SunTable::row(const double altitude) const

@@ -58,6 +58,8 @@ public:
     double axis(double elevation, double horizon) const;
 
 private:
+    /// Makes the depths those of PeakSunlight where the Sun is low.
+    void throwAside(const Profile& profile, const Optics& optics, int altitudes, int elevations, const base::StopRequest& stop);
     void opticalDepth(const Row& row, double horizon, double elevation, double* result) const;
     void transmittance(const Row& row, double horizon, double muSun, double rise, double* result) const;
 

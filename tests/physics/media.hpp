@@ -57,4 +57,16 @@ inline physics::Medium haze(double opticalDepth)
     return medium;
 }
 
+/// Scene 7 of seed 12 of docs/stress.md at one wavelength: g = 0.99, a scale height of 3.3 km over a planet of two million km, 4 deep.
+inline physics::Medium flatShell()
+{
+    const double height = 3.3e3, top = 31e3;
+    physics::Medium medium = layer(
+        1, 1, 0, [](double angle) { return henyeyGreenstein(0.99, angle); }, 1.9e9, top);
+    medium.species[0].numberDensity = {1, std::exp(-top / height)};
+    medium.species[0].extinctionCrossSection = {4 / height};
+    medium.sunAngularRadius = 0.00465;
+    return medium;
+}
+
 } // namespace sky::test
