@@ -3,6 +3,7 @@
 #include "physics/harmonics.hpp"
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace sky::model {
 
@@ -22,6 +23,26 @@ float rounded(const double value)
 {
     constexpr double step = 0x1p-15;
     return static_cast<float>(step * std::nearbyint(value / step));
+}
+
+/// Share of each species' scattering that counts as none, mean of the wavelengths, [species].
+std::vector<double> truncatedShares(const physics::Optics& optics)
+{
+    std::vector<double> shares(optics.species, 0.);
+    for (std::size_t i = 0; i < optics.truncation.size(); ++i)
+        shares[i / optics.wavelengths] += optics.truncation[i] / optics.wavelengths;
+    return shares;
+}
+
+/// Whether a manifest tells the same shares, but for what single precision of the tables makes of them. Where it tells none, none are expected.
+bool sameShares(const std::vector<double>& shares, const std::string& told)
+{
+    std::istringstream in(told);
+    return std::all_of(shares.begin(), shares.end(), [&](double share) {
+        double other = 0;
+        in >> other;
+        return std::abs(other - share) < 1e-3;
+    });
 }
 
 } // namespace
@@ -122,6 +143,10 @@ void describeOptics(Manifest& manifest, const physics::Optics& optics, bool trun
 {
     manifest.settings["moments.degree"] = std::to_string(optics.degree);
     manifest.settings["moments.truncatePeaks"] = truncatePeaks ? "yes" : "no";
+    std::string shares;
+    for (const double share : truncatedShares(optics))
+        shares += (shares.empty() ? "" : " ") + std::to_string(share);
+    manifest.settings["moments.truncated"] = shares;
 }
 
 physics::Optics readOptics(const Model& model, const physics::Medium& medium)
@@ -136,7 +161,12 @@ physics::Optics readOptics(const Model& model, const physics::Medium& medium)
         value = std::stoi(degree->second);
     if (value < 0 || value > 64)
         throw bad("the setting \"moments.degree\" is \"" + degree->second + "\"; expected 0 to 64.");
-    return physics::makeOptics(medium, value, truncate->second == "yes");
+    auto optics = physics::makeOptics(medium, value, truncate->second == "yes");
+    const auto truncated = settings.find("moments.truncated");
+    if (!sameShares(truncatedShares(optics), truncated == settings.end() ? "" : truncated->second))
+        throw bad("its phase functions were truncated otherwise than this version does it, which changes with versions of calcmysky: "
+                  "compute the model anew.");
+    return optics;
 }
 
 } // namespace sky::model

@@ -19,7 +19,8 @@ bool scattersOnceAtMost(const Manifest& manifest);
 /// The moments of a model.   throws ModelError
 physics::Moments readMoments(const Model& model, const std::string& name = "moments");
 
-/// The manifest's settings that readMoments's caller needs to rebuild the optics: degree and whether peaks are truncated.
+/// The manifest's settings that readMoments's caller needs to rebuild the optics: degree, whether peaks are truncated, and how much of them, by which
+/// a model of a version that did it otherwise is known.   throws ModelError where they are missing or don't fit
 void describeOptics(Manifest& manifest, const physics::Optics& optics, bool truncatePeaks);
 physics::Optics readOptics(const Model& model, const physics::Medium& medium);
 

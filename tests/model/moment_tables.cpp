@@ -135,6 +135,28 @@ TEST_CASE("moments in a model: the optics that go with them are rebuilt, or thei
         INFO(degree);
         CHECK_THROWS_AS(readOptics(model, medium), ModelError);
     }
+    medium.species.push_back({"drops", {1, 1}, {1e-3}, {1}, {}, true, false});
+    for (int i = 0; i <= 200; ++i) {
+        const double g = 0.95, angle = i * 3.14159265358979323846 / 200;
+        medium.scatteringAngles.push_back(angle);
+        medium.species[0].phaseFunction.push_back((1 - g * g) /
+                                                  (4 * 3.14159265358979323846 * std::pow(1 + g * g - 2 * g * std::cos(angle), 1.5)));
+    }
+    const auto sharp = physics::makeOptics(medium, 7, true);
+    REQUIRE(physics::truncates(sharp));
+    for (const char* shares : {"", "0", "0.1", "much"}) {
+        const Scratch other;
+        const Model model = written(other, someMoments(0), [&](Manifest& m) {
+            describeOptics(m, sharp, true);
+            m.settings["moments.truncated"] = shares;
+        });
+        INFO(shares);
+        CHECK_THROWS_WITH(readOptics(model, medium), Catch::Contains("compute the model anew"));
+    }
+    const Scratch same;
+    CHECK(readOptics(written(same, someMoments(0), [&](Manifest& m) { describeOptics(m, sharp, true); }), medium).truncation ==
+          sharp.truncation);
+    medium.species.clear();
     const Scratch bare, whole;
     CHECK_THROWS_AS(readOptics(written(bare, someMoments(0)), medium), ModelError);
     CHECK(readOptics(written(whole, someMoments(0), [&](Manifest& m) { describeOptics(m, optics, true); }), medium).degree == 7);
