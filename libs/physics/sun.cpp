@@ -5,6 +5,7 @@
 #include "physics/peak_sunlight.hpp"
 #include "physics/quadrature.hpp"
 #include "physics/ray.hpp"
+#include "physics/straighten.hpp"
 #include "physics/table_axes.hpp"
 #include <algorithm>
 #include <cmath>
@@ -158,38 +159,6 @@ LimbDepths limbDepths(double highest, double scale, double step, const DepthsAt&
         depthsAt(elevations[i], &depths[size_t(i) * wavelengths]);
     }
     return {std::move(elevations), std::move(depths)};
-}
-
-/// Shifts the values of a table between which straight lines are drawn so that the lines are right in the mean: by -h^2 f'' / 12, where a line through
-/// f itself errs by h^2 f'' / 12 (its projection onto piecewise linear functions, to second order). Optical depth bends one way nearly everywhere,
-/// and light that comes from everywhere would lack what the chords have too much. Next to a bend that is no curve nothing is shifted.
-///   values  [point][count], >= 0, `stride` apart from point to point
-void straighten(const std::vector<double>& positions, double* const values, const size_t stride, const int count)
-{
-    const int points = static_cast<int>(positions.size());
-    std::vector<double> curvature(points), shift(points);
-    for (int w = 0; w < count; ++w) {
-        const auto at = [&](int i) -> double& { return values[i * stride + w]; };
-        for (int i = 1; i + 1 < points; ++i) {
-            const double before = positions[i] - positions[i - 1], after = positions[i + 1] - positions[i];
-            if (before > 0 && after > 0) // two altitudes can round to one measure
-                curvature[i] = 2 * ((at(i + 1) - at(i)) / after - (at(i) - at(i - 1)) / before) / (before + after);
-        }
-        for (int i = 1; i + 1 < points; ++i) {
-            double least = curvature[i];
-            for (const int j : {std::max(i - 1, 1), std::min(i + 1, points - 2)})
-                least = curvature[j] * least <= 0 ? 0 : std::abs(curvature[j]) < std::abs(least) ? curvature[j] : least;
-            if (least == 0) {
-                shift[i] = 0;
-                continue;
-            }
-            // The harmonic mean of both squared steps makes it exact where steps are even or grow by a factor.
-            const double before = std::pow(positions[i] - positions[i - 1], 2), after = std::pow(positions[i + 1] - positions[i], 2);
-            shift[i] = least / 6 * before * after / (before + after);
-        }
-        for (int i = 1; i + 1 < points; ++i)
-            at(i) = std::max(0., at(i) - shift[i]);
-    }
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// docs/stress.md: the tests that it names exist.
+// docs/stress.md, docs/campaign.md: the tests that they name exist.
 
 #include <catch2/catch.hpp>
 #include <filesystem>
@@ -25,16 +25,18 @@ std::set<std::string> quoted(const std::string& text, const std::regex& pattern)
 
 } // namespace
 
-TEST_CASE("the tests that docs/stress.md names exist")
+TEST_CASE("the tests that docs/stress.md and docs/campaign.md name exist")
 {
     std::set<std::string> tests;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(SKY_SOURCE_DIR "/tests"))
         if (entry.path().extension() == ".cpp")
             tests.merge(quoted(textOf(entry.path()), std::regex(R"re(TEST_CASE\(\s*"([^"]*)")re")));
-    const auto named = quoted(textOf(SKY_SOURCE_DIR "/docs/stress.md"), std::regex(R"re("([^"\n]*)")re"));
-    CHECK(named.size() > 30);
-    for (const auto& name : named) {
-        INFO(name);
-        CHECK(tests.count(name) == 1);
+    for (const char* page : {"stress", "campaign"}) {
+        const auto named = quoted(textOf(std::string(SKY_SOURCE_DIR "/docs/") + page + ".md"), std::regex(R"re("([^"\n]*)")re"));
+        CHECK(named.size() > 20);
+        for (const auto& name : named) {
+            INFO(page << ": " << name);
+            CHECK(tests.count(name) == 1);
+        }
     }
 }
