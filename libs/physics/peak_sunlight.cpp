@@ -57,6 +57,13 @@ PeakSunlight::PeakSunlight(const Profile& profile, const Optics& optics, const S
     : profile_(profile), optics_(optics), unscaled_(unscaled), sunRadius_(sunRadius), tracer_(profile, optics, 2),
       widest_(*std::max_element(optics.peakAngles.begin(), optics.peakAngles.end())), lit_(optics.wavelengths)
 {
+    for (std::size_t i = 0; i < optics.scatterers.size(); ++i) {
+        bool throws = false;
+        for (int w = 0; w < optics.wavelengths; ++w)
+            throws = throws || peakOf(optics, optics.scatterers[i], w) > 0;
+        if (throws)
+            throwers_.push_back(i);
+    }
     // Ways through a shell differ most near the horizontal.
     const double range = std::min(pi / 2, highest + widest_), scale = unscaled.elevationScale() / 3, length = std::asinh(range / scale);
     for (int i = -raysEachWay; i <= raysEachWay; ++i)
@@ -99,23 +106,24 @@ void PeakSunlight::scatterAlongRays(const double elevation)
         if (elevations_[std::min(r + 1, rays_.size() - 1)] < elevation - widest_ || elevations_[r > 0 ? r - 1 : 0] > elevation + widest_)
             continue;
         const double nu = std::cos(elevations_[r] - elevation);
-        const double* weight = rays_[r].weights.data();
+        const double* weights = rays_[r].weights.data(); // of a node
         for (const auto& node : rays_[r].nodes) {
             unscaled_.transmittance(node.altitude, node.sunScale * muSun + node.nuScale * nu, lit_.data());
             double* light = lightOf(r);
-            for (std::size_t i = 0; i < optics_.scatterers.size(); ++i)
+            for (const std::size_t i : throwers_)
                 for (int w = 0; w < optics_.wavelengths; ++w)
-                    *light++ += *weight++ * lit_[w];
+                    *light++ += weights[i * optics_.wavelengths + w] * lit_[w];
+            weights += optics_.scatterers.size() * optics_.wavelengths;
         }
     }
 }
 
 void PeakSunlight::addPeaks(const double elevation, double* const result)
 {
-    const int wavelengths = optics_.wavelengths, scatterers = static_cast<int>(optics_.scatterers.size());
-    for (int i = 0; i < scatterers; ++i)
+    const int wavelengths = optics_.wavelengths;
+    for (std::size_t i = 0; i < throwers_.size(); ++i)
         for (int w = 0; w < wavelengths; ++w) {
-            const int s = optics_.scatterers[i];
+            const int s = optics_.scatterers[throwers_[i]];
             const double peak = peakOf(optics_, s, w);
             if (!(peak > 0))
                 continue;

@@ -38,11 +38,11 @@ public:
     void transmittance(double elevation, double* result);
 
 private:
-    /// Light that each ray through the place sends there, by all scattering; its peaks follow by their share.
+    /// Light that each ray through the place sends there, by the scaled scattering of those who throw; their peaks follow by their share.
     void scatterAlongRays(double elevation);
     /// Adds the mean of the rays over the peaks' angles.
     void addPeaks(double elevation, double* result);
-    std::size_t perRay() const { return optics_.scatterers.size() * std::size_t(optics_.wavelengths); }
+    std::size_t perRay() const { return throwers_.size() * std::size_t(optics_.wavelengths); }
     double* lightOf(std::size_t ray) { return &scattered_[ray * perRay()]; }
 
     const Profile& profile_;
@@ -50,13 +50,14 @@ private:
     const SunTable& unscaled_;
     double sunRadius_;
     RayTracer tracer_;
-    double widest_;                  ///< of the peaks' scattering angles, rad
-    std::vector<double> elevations_; ///< of the rays through a place
+    double widest_;                     ///< of the peaks' scattering angles, rad
+    std::vector<std::size_t> throwers_; ///< among the scatterers, those whose peaks throw light aside
+    std::vector<double> elevations_;    ///< of the rays through a place
     std::vector<RayNodes> rays_;
     double altitude_ = 0;
     bool levelGround_ = false;
     std::vector<double> lit_;       ///< [wavelength]
-    std::vector<double> scattered_; ///< [ray][scatterer][wavelength]
+    std::vector<double> scattered_; ///< [ray][thrower][wavelength]
 };
 
 } // namespace sky::physics

@@ -32,4 +32,18 @@ void straighten(const std::vector<double>& positions, double* const values, cons
     }
 }
 
+void drawLines(const std::vector<std::size_t>& known, const std::vector<double>& positions, double* const values, const std::size_t stride,
+               const int count)
+{
+    for (std::size_t k = 0; k + 1 < known.size(); ++k) {
+        const std::size_t a = known[k], b = known[k + 1];
+        const double length = positions[b] - positions[a];
+        for (std::size_t i = a + 1; i < b; ++i) {
+            const double x = length > 0 ? (positions[i] - positions[a]) / length : 0.5;
+            for (int w = 0; w < count; ++w)
+                values[i * stride + w] = (1 - x) * values[a * stride + w] + x * values[b * stride + w];
+        }
+    }
+}
+
 } // namespace sky::physics

@@ -13,4 +13,10 @@ namespace sky::physics {
 ///   values     [point][count], >= 0 and kept so, `stride` apart from point to point
 void straighten(const std::vector<double>& positions, double* values, std::size_t stride, int count);
 
+/// Fills a table by straight lines between the points that are known.
+///   known      indices of points, increasing, at least the first and the last
+///   positions  [points], not decreasing
+///   values     [point][count], `stride` apart from point to point
+void drawLines(const std::vector<std::size_t>& known, const std::vector<double>& positions, double* values, std::size_t stride, int count);
+
 } // namespace sky::physics

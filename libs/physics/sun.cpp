@@ -161,6 +161,24 @@ LimbDepths limbDepths(double highest, double scale, double step, const DepthsAt&
     return {std::move(elevations), std::move(depths)};
 }
 
+/// 0, 1, .. count - 1.
+std::vector<double> evenly(const size_t count)
+{
+    std::vector<double> result(count);
+    std::iota(result.begin(), result.end(), 0.);
+    return result;
+}
+
+/// At most so many of 0 .. count - 1, evenly, the first and the last among them.
+std::vector<size_t> someOf(const size_t count, const size_t most)
+{
+    const size_t some = std::min(count, most);
+    std::vector<size_t> result;
+    for (size_t i = 0; i < some; ++i)
+        result.push_back(some > 1 ? i * (count - 1) / (some - 1) : 0);
+    return result;
+}
+
 } // namespace
 
 SunTable::SunTable(const Profile& profile, const Optics& optics, const double sunAngularRadius, const int altitudeCount,
@@ -224,8 +242,7 @@ SunTable::SunTable(const Profile& profile, const Optics& optics, const double su
     });
     if (PeakSunlight::matters(profile, optics))
         throwAside(profile, optics, altitudeCount, elevations, stop);
-    std::vector<double> even(elevations_);
-    std::iota(even.begin(), even.end(), 0.);
+    const auto even = evenly(elevations_);
     const size_t perRow = size_t(elevations_) * wavelengths_;
     for (size_t row = 0; row <= altitudes_.size(); ++row)
         straighten(even, &depth_[row * perRow], wavelengths_, wavelengths_);
@@ -235,28 +252,44 @@ SunTable::SunTable(const Profile& profile, const Optics& optics, const double su
 void SunTable::throwAside(const Profile& profile, const Optics& optics, const int altitudeCount, const int elevations,
                           const base::StopRequest& stop)
 {
+    // These depths are smoother than those of sunlight that goes straight on: some rows of a large table and some of its elevations tell the others.
+    constexpr size_t mostRows = 48, mostElevations = 64;
+    const size_t ground = altitudes_.size(), perRow = size_t(elevations_) * wavelengths_;
+    const auto elevationAt = [&](double horizon, size_t k) {
+        return horizon - sunRadius_ + scale_ * std::sinh(axisLength(scale_, pi / 2 - horizon + sunRadius_) * k / (elevations_ - 1));
+    };
+    size_t low = 0; // elevations of a low Sun, above any horizon
+    while (low + 1 < size_t(elevations_) && elevationAt(horizon(altitudes_.back()), low) < PeakSunlight::highest)
+        ++low;
+    const auto rows = someOf(ground, mostRows), suns = someOf(low + 1, mostElevations);
+    std::vector<double> thrown((ground + 1) * perRow);
     const SunTable through(profile, PeakSunlight::unscaled(optics), sunRadius_, altitudeCount, elevations, stop);
     base::parallel([&](int thread, int threads) {
         PeakSunlight peaks(profile, optics, through, sunRadius_);
-        std::vector<double> light(wavelengths_);
-        for (size_t row = thread; row <= altitudes_.size(); row += threads) {
-            const bool onGround = row == altitudes_.size();
-            const double h = onGround ? 0 : altitudes_[row], horizon = this->horizon(h), range = pi / 2 - horizon + sunRadius_;
-            peaks.place(h, onGround);
-            for (int k = 0; k < elevations_; ++k) {
+        for (size_t i = thread; i <= rows.size(); i += threads) {
+            const size_t row = i < rows.size() ? rows[i] : ground;
+            const double h = row < ground ? altitudes_[row] : 0, horizon = this->horizon(h);
+            peaks.place(h, row == ground);
+            for (const size_t k : suns) {
                 base::stopIfAsked(stop);
-                const double elevation = horizon - sunRadius_ + scale_ * std::sinh(axisLength(scale_, range) * k / (elevations_ - 1));
-                const double visible = visibleDiscFraction(elevation - horizon, sunRadius_);
-                const double counts = std::clamp(3 * (1 - elevation / PeakSunlight::highest), 0., 1.);
-                if (!(counts > 0))
-                    break;
-                peaks.transmittance(elevation, light.data());
-                double* const depth = &depth_[(row * elevations_ + k) * wavelengths_];
+                double* const depth = &thrown[row * perRow + k * wavelengths_];
+                peaks.transmittance(elevationAt(horizon, k), depth);
+                const double visible = visibleDiscFraction(elevationAt(horizon, k) - horizon, sunRadius_);
                 for (int w = 0; w < wavelengths_; ++w)
-                    depth[w] += counts * ((light[w] > 0 ? std::clamp(std::log(visible / light[w]), 0., opaque) : opaque) - depth[w]);
+                    depth[w] = depth[w] > 0 ? std::clamp(std::log(visible / depth[w]), 0., opaque) : opaque;
             }
+            drawLines(suns, evenly(low + 1), &thrown[row * perRow], wavelengths_, wavelengths_);
         }
     });
+    drawLines(rows, measures_, thrown.data(), perRow, static_cast<int>(perRow));
+    for (size_t row = 0; row <= ground; ++row) {
+        const double horizon = this->horizon(row < ground ? altitudes_[row] : 0);
+        for (size_t k = 0; k <= low; ++k) {
+            const double counts = std::clamp(3 * (1 - elevationAt(horizon, k) / PeakSunlight::highest), 0., 1.);
+            for (size_t at = row * perRow + k * wavelengths_, end = at + wavelengths_; at < end; ++at)
+                depth_[at] += counts * (thrown[at] - depth_[at]);
+        }
+    }
 }
 
 SunTable::Row SunTable::row(const double altitude) const

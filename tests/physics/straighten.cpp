@@ -72,3 +72,10 @@ TEST_CASE("straightened tables: lines stay, so does what is beside a corner, and
     for (const double value : same)
         CHECK(std::isfinite(value));
 }
+
+TEST_CASE("straightened tables: lines between known points, also where two have one position")
+{
+    std::vector<double> values{1, 10, 0, 0, 3, 30, 0, 0, 5, 50}; // two numbers a point
+    drawLines({0, 2, 4}, {0, 1, 4, 4, 4}, values.data(), 2, 2);
+    CHECK(values == std::vector<double>{1, 10, 1.5, 15, 3, 30, 4, 40, 5, 50});
+}
