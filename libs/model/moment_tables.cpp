@@ -3,6 +3,7 @@
 #include "physics/harmonics.hpp"
 #include <algorithm>
 #include <cmath>
+#include <locale>
 #include <sstream>
 
 namespace sky::model {
@@ -38,6 +39,7 @@ std::vector<double> truncatedShares(const physics::Optics& optics)
 bool sameShares(const std::vector<double>& shares, const std::string& told)
 {
     std::istringstream in(told);
+    in.imbue(std::locale::classic()); // a host may have another
     return std::all_of(shares.begin(), shares.end(), [&](double share) {
         double other = 0;
         in >> other;
@@ -143,10 +145,11 @@ void describeOptics(Manifest& manifest, const physics::Optics& optics, bool trun
 {
     manifest.settings["moments.degree"] = std::to_string(optics.degree);
     manifest.settings["moments.truncatePeaks"] = truncatePeaks ? "yes" : "no";
-    std::string shares;
+    std::ostringstream shares;
+    shares.imbue(std::locale::classic());
     for (const double share : truncatedShares(optics))
-        shares += (shares.empty() ? "" : " ") + std::to_string(share);
-    manifest.settings["moments.truncated"] = shares;
+        shares << share << " ";
+    manifest.settings["moments.truncated"] = shares.str();
 }
 
 physics::Optics readOptics(const Model& model, const physics::Medium& medium)

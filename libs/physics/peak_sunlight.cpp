@@ -11,8 +11,8 @@ using base::pi;
 
 constexpr int raysEachWay = 24, nodes = 16, positionAngles = 8;
 
-/// What a species' truncated peak throws aside, in units of its scaled scattering. Peaks of less than half of its light go straight on, those of three
-/// quarters are followed.
+/// What a species' truncated peak throws aside, in units of its scaled scattering. Peaks of less than half of its light go straight on, those of
+/// three quarters are followed.
 double peakOf(const Optics& optics, const int s, const int w)
 {
     const double f = optics.truncation[s * optics.wavelengths + w];
@@ -54,20 +54,18 @@ bool PeakSunlight::matters(const Profile& profile, const Optics& optics)
 }
 
 PeakSunlight::PeakSunlight(const Profile& profile, const Optics& optics, const SunTable& unscaled, const double sunRadius)
-    : profile_(profile), optics_(optics), unscaled_(unscaled), sunRadius_(sunRadius), tracer_(profile, optics, 2),
-      widest_(*std::max_element(optics.peakAngles.begin(), optics.peakAngles.end())), lit_(optics.wavelengths)
+    : profile_(profile), optics_(optics), unscaled_(unscaled), sunRadius_(sunRadius), tracer_(profile, optics, 2), lit_(optics.wavelengths)
 {
     for (std::size_t i = 0; i < optics.scatterers.size(); ++i) {
         bool throws = false;
         for (int w = 0; w < optics.wavelengths; ++w)
-            throws = throws || peakOf(optics, optics.scatterers[i], w) > 0;
+            if (const int s = optics.scatterers[i]; peakOf(optics, s, w) > 0) {
+                throws = true;
+                widest_ = std::max(widest_, optics.peakAngles[(s * optics.wavelengths + w) * peakParts + peakParts - 1]);
+            }
         if (throws)
             throwers_.push_back(i);
     }
-    // Ways through a shell differ most near the horizontal.
-    const double range = std::min(pi / 2, highest + widest_), scale = unscaled.elevationScale() / 3, length = std::asinh(range / scale);
-    for (int i = -raysEachWay; i <= raysEachWay; ++i)
-        elevations_.push_back(scale * std::sinh(length * i / raysEachWay));
 }
 
 void PeakSunlight::place(const double altitude, const bool levelGround)
@@ -75,6 +73,12 @@ void PeakSunlight::place(const double altitude, const bool levelGround)
     altitude_ = altitude;
     levelGround_ = levelGround;
     rays_.clear();
+    elevations_.clear();
+    // From where peaks send light of the lowest Sun to where of the highest that is low. Ways through a shell differ most near the horizontal.
+    const double furthest = std::max(highest, sunRadius_ - unscaled_.horizon(altitude)) + widest_;
+    const double range = std::min(pi / 2, furthest), scale = unscaled_.elevationScale() / 3, length = std::asinh(range / scale);
+    for (int i = -raysEachWay; i <= raysEachWay; ++i)
+        elevations_.push_back(scale * std::sinh(length * i / raysEachWay));
     for (const double elevation : elevations_) {
         const double mu = std::sin(elevation);
         rays_.push_back(tracer_.trace(altitude, mu, nodes, hitsGround(profile_.planet(), altitude, mu)));

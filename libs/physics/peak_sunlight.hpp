@@ -7,7 +7,7 @@
 
 namespace sky::physics {
 
-/// Truncation (delta-M scaling) takes light within a peak for light that went straight on. Where the Sun is low that is far from true: what a peak
+/// Truncation (delta-M scaling) takes light within a peak for light that went straight on. Where the Sun is low that is far off: what a peak
 /// takes a degree aside leaves a shell along which it would have gone on for hundreds of kilometres, or goes down into it. So here the first of those
 /// events counts, and only what follows goes straight on: sunlight at a point is what no peak has met, and what one has thrown into its directions,
 ///
@@ -33,7 +33,8 @@ public:
     /// Follows the rays through a place; keeps them until the next.
     ///   levelGround  irradiance of it in units of horizontalSunCosine(), as in SunTable::groundRow()
     void place(double altitude, bool levelGround);
-    /// Transmitted share of sunlight there, [wavelength], >= 0: slightly above 1 where light that comes flat is gathered.
+    /// Transmitted share of sunlight there, [wavelength], >= 0: slightly above 1 where light that comes flat is gathered. The table of sunlight holds
+    /// no more than the disc that shows.
     ///   elevation  of the Sun's centre, rad
     void transmittance(double elevation, double* result);
 
@@ -50,7 +51,7 @@ private:
     const SunTable& unscaled_;
     double sunRadius_;
     RayTracer tracer_;
-    double widest_;                     ///< of the peaks' scattering angles, rad
+    double widest_ = 0;                 ///< of the peaks' scattering angles, rad
     std::vector<std::size_t> throwers_; ///< among the scatterers, those whose peaks throw light aside
     std::vector<double> elevations_;    ///< of the rays through a place
     std::vector<RayNodes> rays_;

@@ -1,5 +1,5 @@
 #pragma once
-// Tables between whose nodes straight lines are drawn.
+// Straight lines between the nodes of tables: values for which they are right in the mean, and values on them.
 
 #include <cstddef>
 #include <vector>

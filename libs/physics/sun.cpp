@@ -169,13 +169,14 @@ std::vector<double> evenly(const size_t count)
     return result;
 }
 
-/// At most so many of 0 .. count - 1, evenly, the first and the last among them.
-std::vector<size_t> someOf(const size_t count, const size_t most)
+/// Of 0 .. count - 1 at most so many, evenly, the first and the last among them, and those that are `kept`; increasing.
+template<class Kept>
+std::vector<size_t> someOf(const size_t count, const size_t most, const Kept& kept)
 {
-    const size_t some = std::min(count, most);
     std::vector<size_t> result;
-    for (size_t i = 0; i < some; ++i)
-        result.push_back(some > 1 ? i * (count - 1) / (some - 1) : 0);
+    for (size_t i = 0; i < count; ++i)
+        if (i == 0 || i + 1 == count || kept(i) || i * (most - 1) / (count - 1) != (i - 1) * (most - 1) / (count - 1))
+            result.push_back(i);
     return result;
 }
 
@@ -254,6 +255,7 @@ void SunTable::throwAside(const Profile& profile, const Optics& optics, const in
 {
     // These depths are smoother than those of sunlight that goes straight on: some rows of a large table and some of its elevations tell the others.
     constexpr size_t mostRows = 48, mostElevations = 64;
+    constexpr double sliver = 0.05; // of the disc
     const size_t ground = altitudes_.size(), perRow = size_t(elevations_) * wavelengths_;
     const auto elevationAt = [&](double horizon, size_t k) {
         return horizon - sunRadius_ + scale_ * std::sinh(axisLength(scale_, pi / 2 - horizon + sunRadius_) * k / (elevations_ - 1));
@@ -261,7 +263,11 @@ void SunTable::throwAside(const Profile& profile, const Optics& optics, const in
     size_t low = 0; // elevations of a low Sun, above any horizon
     while (low + 1 < size_t(elevations_) && elevationAt(horizon(altitudes_.back()), low) < PeakSunlight::highest)
         ++low;
-    const auto rows = someOf(ground, mostRows), suns = someOf(low + 1, mostElevations);
+    const auto besideJump = [&](size_t row) {
+        const double narrow = 1e-5 * planet_.topOfAtmosphere;
+        return altitudes_[row] - altitudes_[row - 1] < narrow || altitudes_[row + 1] - altitudes_[row] < narrow;
+    };
+    const auto rows = someOf(ground, mostRows, besideJump), suns = someOf(low + 1, mostElevations, [](size_t k) { return k < 8; });
     std::vector<double> thrown((ground + 1) * perRow);
     const SunTable through(profile, PeakSunlight::unscaled(optics), sunRadius_, altitudeCount, elevations, stop);
     base::parallel([&](int thread, int threads) {
@@ -270,6 +276,7 @@ void SunTable::throwAside(const Profile& profile, const Optics& optics, const in
             const size_t row = i < rows.size() ? rows[i] : ground;
             const double h = row < ground ? altitudes_[row] : 0, horizon = this->horizon(h);
             peaks.place(h, row == ground);
+            size_t hidden = 0; // the last of the elevations that show less than a sliver of the disc
             for (const size_t k : suns) {
                 base::stopIfAsked(stop);
                 double* const depth = &thrown[row * perRow + k * wavelengths_];
@@ -277,7 +284,14 @@ void SunTable::throwAside(const Profile& profile, const Optics& optics, const in
                 const double visible = visibleDiscFraction(elevationAt(horizon, k) - horizon, sunRadius_);
                 for (int w = 0; w < wavelengths_; ++w)
                     depth[w] = depth[w] > 0 ? std::clamp(std::log(visible / depth[w]), 0., opaque) : opaque;
+                if (visible < sliver)
+                    hidden = k;
             }
+            for (const size_t k : suns) // light from higher up stays while the disc goes: it would be lifted towards what is left of that
+                if (k <= hidden && sunRadius_ > 0)
+                    std::copy_n(
+                        &thrown[row * perRow + suns[std::upper_bound(suns.begin(), suns.end(), hidden) - suns.begin()] * wavelengths_],
+                        wavelengths_, &thrown[row * perRow + k * wavelengths_]);
             drawLines(suns, evenly(low + 1), &thrown[row * perRow], wavelengths_, wavelengths_);
         }
     });

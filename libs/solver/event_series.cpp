@@ -10,6 +10,7 @@ namespace {
 
 /// Events from which the rest is told: each that is kept takes the memory of a whole field.
 constexpr std::size_t mostKept = 8;
+
 void addTo(std::vector<double>& sum, const std::vector<double>& values, double factor)
 {
     sum.resize(values.size(), 0.);

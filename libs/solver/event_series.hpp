@@ -25,7 +25,7 @@ double remainderAfter(double change, double ratio);
 /// Changes of which the least counts where it is told how they fall: a series closed by few events changes by leaps.
 constexpr std::size_t changesTogether = 4;
 
-/// What is left after the last of some changes, where they go on falling as from the last but changesTogether to the last ones.
+/// What is left after the last of some changes, where they go on falling as the least of the last `changesTogether` did since the least of as many before.
 ///   changes  the last ones, 2 changesTogether at least
 double remainderOf(const std::vector<double>& changes);
 

@@ -49,3 +49,23 @@ TEST_CASE("peaks of sunlight: what they throw nowhere else is what scaled depths
             }
         }
 }
+
+TEST_CASE("peaks of sunlight: in air as thick as its planet they are followed to the lowest Sun that shines")
+{
+    Medium medium = sky::test::layer(1, 1, 0, [](double angle) { return sky::test::henyeyGreenstein(0.99, angle); }, 1e6, 1e6);
+    medium.species[0].extinctionCrossSection = {5e-7};
+    const Profile profile(medium);
+    Optics optics = makeOptics(medium, 14, true);
+    std::fill(optics.peakAngles.begin(), optics.peakAngles.end(), 0.);
+    const SunTable unscaled(profile, PeakSunlight::unscaled(optics), 0, 192, 512);
+    PeakSunlight straight(profile, optics, unscaled, 0);
+    RayTracer tracer(profile, optics);
+    for (const double elevation : {-0.6, -0.9}) { // the horizon is 60 degrees below the horizontal
+        double column, light;
+        straight.place(0.99e6, false);
+        straight.transmittance(elevation, &light);
+        tracer.columns(0.99e6, std::sin(elevation), &column);
+        INFO("elevation " << elevation);
+        CHECK(light == Approx(std::exp(-column * optics.extinction[0])).epsilon(0.05));
+    }
+}
