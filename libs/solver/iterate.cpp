@@ -349,7 +349,8 @@ RadiationField iterate(const gl::Api& api, const Scene& scene, const physics::Mo
         if (keepEvents)
             field.perEvent.resize(mostSingly);
     } else {
-        total = rest = series.total();
+        // A guess at what follows that may be wrong by all light there is lit black ground under air 1000 deep, where next to no light comes.
+        total = rest = field.remainder < untold ? series.total() : series.sum();
         addTo(rest, series.sum(), -1);
         addTo(rest, last, 1);
     }
