@@ -287,11 +287,12 @@ void SunTable::throwAside(const Profile& profile, const Optics& optics, const in
                 if (visible < sliver)
                     hidden = k;
             }
-            for (const size_t k : suns) // light from higher up stays while the disc goes: it would be lifted towards what is left of that
-                if (k <= hidden && sunRadius_ > 0)
-                    std::copy_n(
-                        &thrown[row * perRow + suns[std::upper_bound(suns.begin(), suns.end(), hidden) - suns.begin()] * wavelengths_],
-                        wavelengths_, &thrown[row * perRow + k * wavelengths_]);
+            // Light from higher up stays while the disc goes: depths towards a sliver of it would lift that light.
+            const size_t shown = *std::min(std::upper_bound(suns.begin(), suns.end(), hidden), suns.end() - 1);
+            if (sunRadius_ > 0)
+                for (const size_t k : suns)
+                    if (k < shown)
+                        std::copy_n(&thrown[row * perRow + shown * wavelengths_], wavelengths_, &thrown[row * perRow + k * wavelengths_]);
             drawLines(suns, evenly(low + 1), &thrown[row * perRow], wavelengths_, wavelengths_);
         }
     });
