@@ -34,6 +34,9 @@ constexpr double opaque = 200;
 /// Optical depth of a horizontal ray on its way out behind which there is no sunlight: 1e-20 of it.
 constexpr double sunlessDepth = 46;
 
+/// Share of the atmosphere between two altitudes over which a density jumps.
+constexpr double atOnce = 1e-5;
+
 /// Scale of the elevation axis for the usual sunset, rad.
 constexpr double usualScale = 0.03;
 
@@ -110,7 +113,7 @@ std::vector<double> altitudesUnderJump(const Profile& profile, const Optics& opt
 std::vector<double> tableAltitudes(const Profile& profile, const Optics& optics, int count)
 {
     const auto& p = profile.planet();
-    const double narrow = 1e-5 * p.topOfAtmosphere;
+    const double narrow = atOnce * p.topOfAtmosphere;
     std::vector<double> all = altitudeNodes(p, count), jumps{p.topOfAtmosphere};
     const auto& shells = profile.shells();
     for (size_t k = 0; k + 1 < shells.size(); ++k)
@@ -264,7 +267,7 @@ void SunTable::throwAside(const Profile& profile, const Optics& optics, const in
     while (low + 1 < size_t(elevations_) && elevationAt(horizon(altitudes_.back()), low) < PeakSunlight::highest)
         ++low;
     const auto besideJump = [&](size_t row) {
-        const double narrow = 1e-5 * planet_.topOfAtmosphere;
+        const double narrow = atOnce * planet_.topOfAtmosphere;
         return altitudes_[row] - altitudes_[row - 1] < narrow || altitudes_[row + 1] - altitudes_[row] < narrow;
     };
     const auto rows = someOf(ground, mostRows, besideJump), suns = someOf(low + 1, mostElevations, [](size_t k) { return k < 8; });
