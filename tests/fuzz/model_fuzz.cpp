@@ -1,5 +1,5 @@
-// libFuzzer target for what a stranger's model makes us parse ourselves: manifest.json and the EXR header. Run as
-//     model_fuzz -dict=tests/fuzz/model.dict CORPUS tests/fuzz/model_seeds
+// libFuzzer target for what a stranger's model makes us parse ourselves: manifest.json and what is made of it, EXR headers and pixels. Run as
+//     TMPDIR=/dev/shm model_fuzz -dict=tests/fuzz/model.dict CORPUS tests/fuzz/model_seeds
 #include "model_fuzz.hpp"
 
 #include <cstddef>
@@ -7,8 +7,7 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-    const std::string text(reinterpret_cast<const char*>(data), size);
-    fuzz::checkManifest(text);
-    fuzz::checkHeader(text);
+    static const fuzz::Models models;
+    models.check({reinterpret_cast<const char*>(data), size});
     return 0;
 }
