@@ -1,15 +1,16 @@
 #!/usr/bin/env python3
 """Generated stress campaign: random legal descriptions over the whole range of the language (scenes.py), judged by laws (judge.py).
 
-    tests/stress/campaign.py BIN [--count N] [--only N,N...] [--seed S] [--verify SECONDS] [--must-judge] [--keep DIR]
+    tests/stress/campaign.py BIN [--count N] [--only N,N...] [--seed S] [--verify SECONDS] [--must-judge] [--must-hold KINDS] [--keep DIR]
 
 BIN is the directory of the programs. Each scene is computed and asked for its sky at the special places: camera on the ground, at the top of the
 atmosphere and above; Sun and view at zenith, nadir, horizon, and equal. A scene fails where a program ends with anything but 0 (or 2 with a
 sentence: the parser refused it); where a radiance is NaN, infinite or negative, from the moments or from the textures; where it jumps between two
 places however near they are; or where more light leaves than came. With --verify each model is also compared with the Monte Carlo reference:
 it fails where its error is above BOUNDS by more than two standard errors of the judge. Light of which the judge could tell fewer than eight
-samples to 5 % is counted as not judged; scenes with sharp peaks are judged with all orders. Prints one line a scene; what it needs to be repeated is its number and --seed. Exit code 1 if any failed, or with
---must-judge if any was refused or not judged: by its laws, and with --verify its bright light by the reference. Needs NumPy.
+samples to 5 % is counted as not judged; scenes with sharp peaks are judged with all orders. Prints one line a scene;
+what it needs to be repeated is its number and --seed. Exit code 1 if any failed, or with --must-judge if any was refused or not judged: by its laws, and
+with --verify its bright light by the reference; or with --must-hold if a kind of scene isn't among those judged. Needs NumPy.
 """
 import argparse
 import json
@@ -93,6 +94,7 @@ def judge(options, model, facts, scratch):
             complaints.append(f"fast and precise answers differ by {100 * error[light][0]:.1f} % at {error[light][1]}")
     if several and not options.moments:
         complaints += judge_textures(os.path.join(options.bin, "showmysky"), model, facts, scratch, options.seconds)
+        facts["kinds"].append("textures")
     return complaints, error, several
 
 
@@ -163,6 +165,7 @@ def summary(verdicts):
 def campaign(options):
     os.environ.setdefault("SHOWMYSKY_LIBRARY", os.path.join(options.bin, "../lib/libShowMySky.so"))
     failed = refused = late = unjudged = 0
+    held = set() # kinds of the scenes that were judged
     verdicts, differences = [], []
     numbers = options.only or range(options.first, options.first + options.count)
     for number in numbers:
@@ -205,6 +208,7 @@ def campaign(options):
                     verdicts += [(number, *what) for what in found]
             failed += bool(complaints)
             unjudged += not judged
+            held.update(facts["kinds"] if judged else ())
             print(f"{number:4d} {took:6.1f} s  {'FAILED  ' if complaints else ''}{'; '.join(complaints[:3]) or verdict}  [{facts['about']}]", flush=True)
     print(f"{len(numbers)} scenes, {refused} refused by the parser, {late} too long to judge, {failed} failed (seed {options.seed})")
     for name, _ in LIGHT:
@@ -215,6 +219,9 @@ def campaign(options):
         summary(verdicts)
     if options.must_judge and unjudged:
         print(f"  {unjudged} scenes that had to be judged were not")
+        return 1
+    if missing := set(options.must_hold) - held:
+        print(f"  of these kinds no scene was judged: {', '.join(sorted(missing))}")
         return 1
     return 1 if failed else 0
 
@@ -234,5 +241,7 @@ if __name__ == "__main__":
     parser.add_argument("--verify", type=float, default=0, help="seconds of Monte Carlo for each scene")
     parser.add_argument("--unresolved-as-sharp", action="store_true", help="give peaks that the model calls unresolved the bounds of sharp ones")
     parser.add_argument("--must-judge", action="store_true", help="fail where a scene is refused, takes too long, or leaves the reference too uncertain")
+    parser.add_argument("--must-hold", type=lambda text: text.split(","), default=[],
+                        help="fail where no scene that was judged is of each of these kinds (scenes.py): deep,64 wavelengths,textures")
     parser.add_argument("--keep", help="keep descriptions and models here")
     sys.exit(campaign(parser.parse_args()))

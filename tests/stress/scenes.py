@@ -49,6 +49,13 @@ def log_uniform(rng, low, high):
     return math.exp(rng.uniform(math.log(low), math.log(high)))
 
 
+def kinds_of(wavelengths, scatterers, species, scattered, sharp, albedo):
+    """What is special about a scene, for campaign.py --must-hold."""
+    found = [f"{wavelengths} wavelengths", f"{scatterers} scatterers"]
+    found += ["deep"] if scattered >= 100 else ["vacuum"] if species == 0 else ["no sky"] if scattered == 0 else []
+    return found + (["sharp over bright ground"] if sharp and min(albedo) >= 0.3 else [])
+
+
 def spectrum(values):
     return ", ".join("%.9g" % v for v in values)
 
@@ -78,6 +85,7 @@ def scene(rng):
     ]
     wavelengths = [0.4 + 0.3 * i / (count - 1) for i in range(count)] # um
     species, gentle, transport = [], True, [0.0] * count
+    scattered, sharp = 0.0, False # vertical optical depth of scattering where it is largest; whether by sharp peaks
     for i in range(scatterers):
         depth = rng.choice([0.0, 1e-9, 1e-3, 0.1, 0.5, 1.0, 3.0, 10.0, 1000.0]) / (scatterers if scatterers > 3 else 1)
         phase = list(PHASES)[i] if scatterers == len(PHASES) else rng.choice(list(PHASES))
@@ -87,6 +95,8 @@ def scene(rng):
         gentle = gentle and phase in GENTLE
         kind, angstrom = rng.choice(["smooth", "achromatic", "general"]), rng.choice([0, 0, 1.3, 4])
         if shape != "nothing":
+            scattered += omega * depth * wavelengths[0]**-angstrom
+            sharp = sharp or depth * omega >= 0.1 and phase not in GENTLE
             cosine = MEAN_COSINE[phase] if phase in MEAN_COSINE else float(phase.split()[1])
             transport = [sum_ + depth * wavelength**-angstrom * (1 - omega * cosine) for sum_, wavelength in zip(transport, wavelengths)]
         species.append(f"{phase} {shape} {depth:.3g} {omega:g}")
@@ -102,5 +112,7 @@ def scene(rng):
                   f"cross section: {spectrum([depth / top] * count)}", "}"]
     about = (f"R {planet:.2g} m, top {top:.2g} m, Sun {sun / AU:g} AU, {count} wavelengths, albedo {albedo[0]:g}..{albedo[-1]:g}, orders {orders}: "
              + ("; ".join(species[:3]) or "vacuum") + (" ..." if len(species) > 3 else ""))
-    return "\n".join(lines) + "\n", {"top": top, "planet": planet, "albedo": albedo, "wavelengths": [1000 * w for w in wavelengths], "transport": transport, "gentle": gentle, "about": about,
-                                    "eclipsed": scatterers < 3 and rng.random() < 0.2}
+    kinds = kinds_of(count, scatterers, len(species), scattered, sharp, albedo)
+    return "\n".join(lines) + "\n", {"top": top, "planet": planet, "albedo": albedo, "wavelengths": [1000 * w for w in wavelengths],
+                                     "transport": transport, "gentle": gentle, "scatters": scattered > 0, "about": about, "kinds": kinds,
+                                     "eclipsed": scatterers < 3 and rng.random() < 0.2}
