@@ -191,8 +191,6 @@ def campaign(options):
                 verdict = "refused: " + said.splitlines()[0]
             elif code != 0:
                 complaints.append(f"exit code {code}: {said[-300:]}")
-            elif facts["about"].endswith("vacuum"):
-                verdict, judged = "ok: a vacuum has no sky to ask for", True
             else:
                 complaints, difference, several = judge(options, model, facts, scratch)
                 if difference is not None:

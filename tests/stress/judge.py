@@ -15,6 +15,8 @@ import numpy as np
 
 JUMP = 0.05 # of the radiance: between two views or places that are all but the same
 SURPLUS = 1.05 # of the energy that comes in: the quadratures of these checks are good to a few per cent
+PEAK = math.radians(6) # about the Sun
+SCATTERED = 2 | 4 # layers of the photometer: once, and more often
 DARKNESS = 1e-14 # of sunlight, per sr: less is nobody's light, as `calcmysky verify` has it too
 
 
@@ -98,29 +100,70 @@ def judge_steps(light, layers, facts):
             for jump, start, unit in zip(jumps, starts, units) if jump > JUMP]
 
 
+def nodes(edges, counts):
+    """Gauss-Legendre nodes and weights on panels between edges."""
+    panels = [(np.polynomial.legendre.leggauss(count), low, high) for low, high, count in zip(edges, edges[1:], counts)]
+    return (np.concatenate([0.5 * (low + high) + 0.5 * (high - low) * x for (x, _), low, high in panels]),
+            np.concatenate([0.5 * (high - low) * w for (_, w), low, high in panels]))
+
+
+def light_returned(light, layers, facts):
+    """Share of the sunlight that meets the air that comes back, [wavelength]: by what goes up through the top, averaged over its places. Where phase
+    functions are sharp, what is seen within PEAK of the Sun is left out: too narrow for these nodes, and nothing but missing."""
+    below = dip(facts, facts["top"])
+    suns, sun_weights = nodes((-1, -math.sin(below), 0, 1), (3, 7, 10)) # cosines
+    downs, down_weights = nodes((0, math.pi / 2 - below, math.pi / 2), (16, 12)) # nadir angles, to the ground and past it
+    turns, turn_weights = nodes((0, 1), (12,)) # roots of the azimuth's share of half a turn: closer where the Sun is
+    azimuths = math.pi * turns**2
+    sun, down, azimuth = np.arccos(suns)[None, :, None], downs[:, None, None], azimuths[None, None, :]
+    weights = np.einsum("i,j,k->ijk", down_weights * np.sin(downs) * np.cos(downs), sun_weights, 4 * math.pi * turns * turn_weights)
+    if not facts["gentle"]:
+        weights = weights * (np.sin(sun) * np.sin(down) * np.cos(azimuth) - np.cos(sun) * np.cos(down) < math.cos(PEAK))
+    flux = light.radiance(facts["top"], sun, math.pi - down, azimuth, layers) # views in a row share their ray
+    return 2 * (weights[..., None] * flux).sum(axis=(0, 1, 2)) / light.solar_irradiance
+
+
+def light_on_ground(light, facts):
+    """Light that falls on the ground, averaged over it, by that which would without air, [wavelength]."""
+    suns, weights = nodes((-1, -0.1, 0, 1), (8, 6, 10))
+    falls = np.array([sum(light.horizontal_irradiance(0.0, math.acos(mu))) for mu in suns])
+    return 2 * (weights[:, None] * falls).sum(axis=0) / light.solar_irradiance
+
+
 def judge_energy(light, layers, facts):
-    """No light from nothing: the ground takes no more than the whole air catches, and the planet returns no more."""
-    caught = ((facts["planet"] + facts["top"]) / facts["planet"]) ** 2
-    complaints = []
+    """No light from nothing, over white ground too. Averaged over the ground, sunlight that falls on it is to that without air as the light of a glowing
+    ground that gets out is to the light it glows by (reciprocity): no more, however often air and ground throw it to and fro. And what the ground keeps
+    and what comes back are no more together than what meets the air."""
+    complaints, kept = [], 0.0
     if layers & 4: # the irradiance by the sky comes from the moments
-        for zenith in (0.0, 0.7, 1.4, 1.55, 1.6):
-            kept = sum(light.horizontal_irradiance(0.0, zenith)) * (1 - np.array(facts["albedo"])) / light.solar_irradiance
-            if not kept.max() <= SURPLUS * caught:
-                complaints.append(f"the ground keeps {kept.max():.3f} of the Sun's light, Sun at {math.degrees(zenith):.0f} deg")
-    if facts["gentle"]:
-        suns, sun_weights = np.polynomial.legendre.leggauss(12)
-        downs, down_weights = np.polynomial.legendre.leggauss(16)
-        horizon = math.pi / 2 - dip(facts, facts["top"]) # of the nadir angle; panels on both sides of the horizon
-        azimuths = (np.arange(8) + 0.5) * math.pi / 8
-        returned = 0.0
-        for low, high in ((0, horizon), (horizon, math.pi / 2)):
-            angle, weight = 0.5 * (low + high) + 0.5 * (high - low) * downs, 0.5 * (high - low) * down_weights
-            flux = (light.radiance(facts["top"], np.arccos(suns)[:, None, None], (math.pi - angle)[None, :, None], azimuths[None, None, :], layers)
-                    * (weight * np.sin(angle) * np.cos(angle))[None, :, None, None]).sum(axis=1).mean(axis=1) * 2 * math.pi
-            returned = returned + 2 * (sun_weights[:, None] * flux).sum(axis=0)
-        share = (returned / light.solar_irradiance).max()
-        if not share <= SURPLUS:
-            complaints.append(f"the planet returns {share:.3f} of the light that meets its air")
+        falls = light_on_ground(light, facts)
+        kept = falls * (1 - np.array(facts["albedo"])) * (facts["planet"] / (facts["planet"] + facts["top"])) ** 2
+        if not falls.max() <= SURPLUS:
+            complaints.append(f"{falls.max():.3f} of the light that would fall on the ground without air does")
+    returned = light_returned(light, layers, facts)
+    share = (kept + returned).max()
+    if not share <= SURPLUS:
+        complaints.append(f"the ground keeps and the planet returns {share:.3f} of the light that meets its air")
+    return complaints
+
+
+def judge_without_sky(light, layers, facts):
+    """What scatters nothing has no sky; and without any air nothing is in the way of the light, which the ground throws back as it falls."""
+    if facts["scatters"]:
+        return []
+    rows = special_places(facts)
+    seen = light.radiance(*rows.T, layers=layers & SCATTERED).max(axis=1)
+    complaints = [f"sky without a scatterer: {seen.max():g} at {place(rows[np.argmax(seen)])}"] if seen.max() != 0 else []
+    if "vacuum" not in facts["kinds"]:
+        return complaints
+    for altitude in altitudes(facts):
+        for angle in (0.0, 1.0, math.pi / 2 + dip(facts, altitude) - 1e-4, math.pi / 2 + dip(facts, altitude) + 1e-4, math.pi):
+            expected, through = float(angle < math.pi / 2 + dip(facts, altitude)), light.transmittance(altitude, angle)
+            if np.abs(through - expected).max() > 1e-9:
+                complaints.append(f"transmittance of a vacuum {through.min():g}..{through.max():g} at {altitude:.6g} m, {math.degrees(angle):.5f} deg")
+        ground = light.radiance(altitude, 1.0, math.pi, layers=layers) / light.solar_irradiance
+        if np.abs(ground - np.array(facts["albedo"]) * math.cos(1.0) / math.pi).max() > 1e-4: # single precision, and a Sun that isn't a point
+            complaints.append(f"bare ground under a Sun at 1 rad sends {ground.max():g} of its light, seen from {altitude:.6g} m")
     return complaints
 
 
@@ -149,7 +192,7 @@ def judge(model, facts):
             fast.radiance(0.0, 0.0, 0.0)
         except showmysky.Error: # one order, or nothing scatters: there are no moments
             layers = showmysky.SINGLE_SCATTERING
-        complaints = judge_values(fast, layers, facts) + judge_steps(fast, layers, facts) + judge_energy(fast, layers, facts)
+        complaints = [complaint for law in (judge_values, judge_steps, judge_energy, judge_without_sky) for complaint in law(fast, layers, facts)]
         return {"complaints": complaints, "error": judge_methods(fast, reference, layers, facts),
                 "several": bool(layers & showmysky.MULTIPLE_SCATTERING)}
 
