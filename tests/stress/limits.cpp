@@ -4,6 +4,7 @@
 #include "physics/eclipse.hpp"
 #include "physics/harmonics.hpp"
 #include "physics/source_iteration.hpp"
+#include "scaled_media.hpp"
 #include <catch2/catch.hpp>
 
 using namespace sky::physics;
@@ -24,19 +25,6 @@ MomentSettings coarse(int degree)
     s.directNodes = 24;
     s.nodes = 12;
     return s;
-}
-
-/// All lengths of a medium, in other units.
-Medium scaled(Medium medium, double factor)
-{
-    medium.planetRadius *= factor;
-    medium.topOfAtmosphere *= factor;
-    for (double& altitude : medium.altitudes)
-        altitude *= factor;
-    for (auto& species : medium.species)
-        for (double& sigma : species.extinctionCrossSection)
-            sigma /= factor;
-    return medium;
 }
 
 Moments solved(const Medium& medium, const MomentSettings& settings, int events)
@@ -78,7 +66,7 @@ TEST_CASE("a planet of 400 metres has the sky of the Earth, and so has one of 70
     air.species[0].numberDensity.back() = std::exp(-14.7); // as would the number of cells that divide 15 scale heights
     const Moments earth = solved(air, settings, 3);
     for (const double factor : {400 / 6.371e6, 1e-3, 1e3 / 1024, 11.}) {
-        const Moments other = solved(scaled(air, factor), settings, 3);
+        const Moments other = solved(sky::test::scaled(air, factor), settings, 3);
         REQUIRE(other.values.size() == earth.values.size());
         double largest = 0;
         for (std::size_t i = 0; i < earth.values.size(); ++i)
@@ -90,7 +78,7 @@ TEST_CASE("a planet of 400 metres has the sky of the Earth, and so has one of 70
 
 TEST_CASE("twilight of a planet of 10 Gm, which ends within a tenth of a degree, has the light that more Suns find")
 {
-    auto air = scaled(sky::test::exponentialAir(0.1, 0.3, sky::test::rayleighPhase), 0.085);
+    auto air = sky::test::scaled(sky::test::exponentialAir(0.1, 0.3, sky::test::rayleighPhase), 0.085);
     air.planetRadius = 1e10;
     auto settings = coarse(2);
     settings.suns = 28;
@@ -118,29 +106,6 @@ TEST_CASE("twilight of a planet of 10 Gm, which ends within a tenth of a degree,
     }
     CHECK(count > 40);
     CHECK(std::sqrt(squares / count) < 0.1); // most of it where a millionth of the light is left
-}
-
-TEST_CASE("haze from thin to thick that does not absorb, over white ground: all light comes back")
-{
-    auto settings = coarse(4);
-    settings.suns = 10;
-    settings.groundDirections = settings.skyDirections = 8;
-    settings.altitudes = 17;
-    settings.nodes = 16;
-    for (const double depth : {0.05, 0.3, 1.}) {
-        const auto haze = sky::test::layer(depth, 1, 1, [](double angle) { return sky::test::henyeyGreenstein(0.5, angle); });
-        const Moments moments = solved(haze, settings, depth > 0.5 ? 32 : 16);
-        std::vector<double> field(harmonicCount(settings.degree));
-        for (int j = 0; j < settings.suns; ++j) {
-            const double muSun = std::sin(moments.grid.sunElevation(j));
-            if (muSun < 0.3) // grazing light is spent within a part of the first level of grids as coarse as this
-                continue;
-            moments.interpolate(1000, muSun, field.data());
-            const double escape = -field[harmonicIndex(1, 0)] / std::sqrt(3 / (4 * pi)); // of an area, upwards; Y_10 = sqrt(3 / 4 pi) mu
-            INFO("depth " << depth << " muSun " << muSun);
-            CHECK(escape == Approx(muSun).epsilon(0.01)); // nodes, levels, and events that are still to come
-        }
-    }
 }
 
 TEST_CASE("after sunset, twice as many samples along a ray change little, and twice as many again less")
