@@ -240,3 +240,69 @@ TEST_CASE("shader: azimuth from three cosines", "[gl]")
         CHECK(std::abs(values[i]) <= 1.F);
     }
 }
+
+TEST_CASE("shader: whatever a float holds, functions of the library answer with finite numbers", "[gl]")
+{
+    const auto context = gl::testing::context();
+    if (!context)
+        return;
+    const std::vector<float> extremes{0,    -0.F,  1e-45F, -1e-45F, 1e-38F, -1e-38F, 1e-6F, -1e-6F,
+                                      0.5F, -0.5F, 1,      -1,      1e4F,   -1e4F,   3e18F, -3e18F};
+    const std::vector<float> lengths{0, 1e-45F, 1e-38F, 1e-3F, 1, 1e4F, 3e8F}; // m, as long as a way through any air; radii of discs too
+    const std::vector<float> ways{1, 300, 1e4F, 3e8F};
+    const auto pairs = [](const std::vector<float>& a, const std::vector<float>& b) {
+        std::vector<Vec4> inputs;
+        for (const float x : a)
+            for (const float y : b)
+                inputs.push_back({x, y, 0.00465F, 3});
+        return inputs;
+    };
+    struct Function {
+        const char *file, *expression;
+        std::vector<Vec4> inputs;
+        double least, most; ///< of what it may answer
+    };
+    const double any = 3.5e38, turn = 3.1415928; // rounded up
+    const std::vector<Function> functions{
+        {"angles", "elevationOf(x.x)", pairs(extremes, {0}), -turn / 2, turn / 2},
+        {"angles", "inverseSinh(x.x)", pairs(extremes, {0}), -45, 45},
+        {"angles", "sine(clamp(x.x, -100.0, 100.0))", pairs(extremes, {0}), -1.0000002, 1.0000002},
+        {"sun", "visibleDiscFraction(x.x, x.y)", pairs(extremes, lengths), 0, 1},
+        {"sun", "visibleAlong(x.x, x.y, -x.x, x.z)", pairs(extremes, lengths), 0, 1},
+        {"sun", "sunAxis(x.x, x.z, 1e-3, 0.1)", pairs(extremes, {0}), 0, 1},
+        {"sun", "momentAxis(x.x, vec3(5.0, 74.2, 0.3))", pairs(extremes, {0}), 0, 1},
+        {"sun", "horizontalSunCosine(clamp(x.x, -1.0, 1.0), x.y * x.x, x.z)",
+         pairs({0, 1, -1, 1e-3F, -4.65e-3F, 4.65e-3F, -4.6499e-3F}, {1, 0.999999F}), 0, 1},
+        {"scattered", "azimuthCosine(clamp(x.x, -1.0, 1.0), clamp(x.y, -1.0, 1.0), clamp(x.x * x.y, -1.0, 1.0))", pairs(extremes, extremes),
+         -1, 1},
+        {"geometry", "spanInAir(Planet(6.4e6, 1.2e5), x.x, clamp(x.y, -1.0, 1.0), false).end", pairs(lengths, extremes), 0, any},
+        {"geometry", // down to the ground from the horizon on; to any other ray no ground is promised
+         "spanInAir(Planet(6.4e6, 1.2e5), x.x, -mix(sqrt(x.x * (x.x + 1.28e7)) / (x.x + 6.4e6), 1.0, clamp(abs(x.y), 0.0, 1.0)), true).end",
+         pairs(lengths, extremes), 0, 4e8},
+        {"aerial", "aerialCoordinate(min(x.x, x.y), x.y, aerialFromCamera)", pairs(ways, ways), 0, 1.000001},
+        {"aerial", "aerialCoordinate(min(x.x, x.y), x.y, aerialBothEnds)", pairs(ways, ways), -1e-6, 1.005}, // 300 m beside 3e8
+        {"aerial", "aerialDistance(clamp(x.x, 0.0, 1.0), x.y, aerialFromCamera)", pairs(extremes, lengths), 0, 3.003e8},
+        {"aerial", "aerialDistance(clamp(x.x, 0.0, 1.0), x.y, aerialBothEnds)", pairs(extremes, lengths), -1e-3, 3.003e8},
+        {"aerial", "aerialPlace(x.x, x.y, aerialBothEnds, 24.0)", pairs(lengths, lengths), 0, 23},
+        {"display", "toneMapped(vec3(abs(x.x)), abs(x.x), curveExponential).x", pairs(extremes, {0}), 0, 1},
+        {"display", "toneMapped(vec3(abs(x.x)), abs(x.x), curveReinhard).x", pairs(extremes, {0}), 0, 1},
+        {"display", "encodeSrgb(vec3(clamp(x.x, 0.0, 1.0))).x", pairs(extremes, {0}), 0, 1.000001},
+        {"display", "shownColour(vec4(abs(x.x), abs(x.y), abs(x.x), 0.0), modeSrgb, curveExponential, true).y", pairs(extremes, extremes),
+         0, 1},
+        {"display", "shownColour(vec4(abs(x.x), abs(x.y), abs(x.x), 0.0), modeSrgbBright, curveExponential, true).x",
+         pairs(extremes, extremes), 0, 1},
+        {"display", "shownColour(vec4(abs(x.x), abs(x.y), abs(x.x), 0.0), modeHue, curveExponential, true).z", pairs(extremes, extremes), 0,
+         1},
+        {"sky_view", "angleBetween(normalize(vec3(x.x, x.y, 1e-3)), normalize(vec3(x.y, x.x, 1e-3)))",
+         pairs({0, 1e-20F, 1, -1, 1e4F}, {0, 1e-20F, 1, -1e4F}), 0, turn},
+    };
+    for (const auto& function : functions) {
+        const auto values = evaluate(context->api(), "lib/" + std::string(function.file) + ".glsl", function.expression, function.inputs);
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            INFO(function.expression << " of " << function.inputs[i][0] << ", " << function.inputs[i][1] << " is " << values[i]);
+            CHECK(std::isfinite(values[i]));
+            CHECK(double(values[i]) >= function.least);
+            CHECK(double(values[i]) <= function.most);
+        }
+    }
+}
