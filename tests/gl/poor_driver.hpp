@@ -2,6 +2,7 @@
 // Functions as bad as drivers may have them, in GLSL, to be put into every shader (ShaderInterceptor).
 
 #include <string>
+#include <vector>
 
 namespace sky::gl::testing {
 
@@ -10,7 +11,8 @@ namespace sky::gl::testing {
 ///     exp, exp2       (3 + 2 |x|) ULP                        sin, cos   2^-11 within -pi .. pi
 ///     log, log2       3 ULP, 2^-21 within 0.5 .. 2           sqrt       1 / inversesqrt
 ///     pow             exp2(y log2(x))                        length, normalize   by sqrt
-///     inversesqrt     2 ULP
+///     inversesqrt     2 ULP                                  atan       4096 ULP
+///     asin, acos      by atan and sqrt                       tan, sinh, cosh, tanh   by sin, cos and exp
 /// and filters textures with weights of 8 bits, as many GPUs do.
 ///   noise  -1..1 from the argument x, as a GLSL expression: what share of the permitted error is made
 ///   sine   the largest error of sin and cos
@@ -30,6 +32,14 @@ float poor_sqrt(float x) { return 1.0 / poor_inversesqrt(x); }
 float poor_pow(float x, float y) { return poor_exp2(y * poor_log2(x)); }
 float poor_sin(float x) { return sin(x) + SINE * poor_noise(x); }
 float poor_cos(float x) { return cos(x) + SINE * poor_noise(x); }
+float poor_tan(float x) { return poor_sin(x) / poor_cos(x); }
+float poor_atan(float x) { return atan(x) * (1.0 + 4096.0 * poor_ulp * poor_noise(x)); }
+float poor_atan(float y, float x) { return atan(y, x) * (1.0 + 4096.0 * poor_ulp * poor_noise(x + y)); }
+float poor_asin(float x) { return poor_atan(x, poor_sqrt(1.0 - x * x)); }
+float poor_acos(float x) { return poor_atan(poor_sqrt(1.0 - x * x), x); }
+float poor_sinh(float x) { return 0.5 * (poor_exp(x) - poor_exp(-x)); }
+float poor_cosh(float x) { return 0.5 * (poor_exp(x) + poor_exp(-x)); }
+float poor_tanh(float x) { return poor_sinh(x) / poor_cosh(x); }
 float poor_length(vec2 v) { return poor_sqrt(dot(v, v)); }
 float poor_length(vec3 v) { return poor_sqrt(dot(v, v)); }
 vec3 poor_normalize(vec3 v) { return v / poor_length(v); }
@@ -44,9 +54,11 @@ vec4 poor_texture(sampler3D s, vec3 at)
     return texture(s, (left + floor((x - left) * 256.0 + 0.5) / 256.0 + 0.5) / size);
 }
 )";
-    for (const char* function : {"exp", "exp2", "log", "log2", "inversesqrt", "sqrt", "sin", "cos"})
+    const std::vector<std::string> ofOne{"exp", "exp2", "log",  "log2", "inversesqrt", "sqrt", "sin", "cos",
+                                         "tan", "atan", "asin", "acos", "sinh",        "cosh", "tanh"};
+    for (const std::string& f : ofOne)
         for (const char* type : {"vec2", "vec3", "vec4"}) {
-            const std::string f = function, t = type;
+            const std::string t = type;
             text += t + " poor_" + f + "(" + t + " x) { " + t + " y; for (int i = 0; i < " + t.back() + "; ++i) y[i] = poor_" + f +
                     "(x[i]); return y; }\n";
         }
@@ -55,9 +67,10 @@ vec4 poor_texture(sampler3D s, vec3 at)
         text += t + " poor_pow(" + t + " x, " + t + " y) { " + t + " z; for (int i = 0; i < " + t.back() +
                 "; ++i) z[i] = poor_pow(x[i], y[i]); return z; }\n";
     }
-    for (const char* function :
-         {"exp", "exp2", "log", "log2", "inversesqrt", "sqrt", "pow", "sin", "cos", "length", "normalize", "texture"})
-        text += std::string("#define ") + function + " poor_" + function + "\n";
+    std::vector<std::string> all{"pow", "length", "normalize", "texture"};
+    all.insert(all.end(), ofOne.begin(), ofOne.end());
+    for (const std::string& function : all)
+        text += "#define " + function + " poor_" + function + "\n";
     const auto put = [&](const std::string& word, const std::string& value) {
         for (std::size_t at; (at = text.find(word)) != std::string::npos;)
             text.replace(at, word.size(), value);
