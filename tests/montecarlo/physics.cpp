@@ -32,11 +32,51 @@ Query fromBelow(double mu, double mu0, double azimuth = 0.3)
     return {.sunZenithAngle = std::acos(mu0), .viewZenithAngle = std::acos(mu), .relativeAzimuth = azimuth};
 }
 
-double henyeyGreenstein(double angle)
+double henyeyGreenstein(double angle, double g = 0.6)
 {
-    const double g = 0.6;
     return (1 - g * g) / (4 * pi * std::pow(1 + g * g - 2 * g * std::cos(angle), 1.5));
 }
+
+/// Cosine below which Henyey and Greenstein's phase function scatters the share u of all light.
+double henyeyGreensteinCosine(double g, double u)
+{
+    const double root = (1 - g * g) / (1 - g + 2 * g * u);
+    return g == 0 ? 2 * u - 1 : (1 + g * g - root * root) / (2 * g);
+}
+
+/// Directions all around, those of views from below and from above, as dense as g scatters sunlight into them.
+class AroundSun
+{
+public:
+    struct Side {
+        double weight = 0; ///< sr
+        double cosine = 0; ///< of the scattering angle
+        double mu = 0;     ///< of the zenith or nadir angle
+        double azimuth = 0;
+        bool below = false; ///< seen from below: light that goes down
+    };
+    static Side at(double mu0, double cosine, double turn)
+    {
+        const double sine = std::sqrt(1 - cosine * cosine), sine0 = std::sqrt(1 - mu0 * mu0);
+        const double x = cosine * sine0 - sine * std::cos(turn) * mu0, y = sine * std::sin(turn),
+                     z = cosine * mu0 + sine * std::cos(turn) * sine0;
+        return {0, cosine, std::abs(z), std::atan2(y, x), z > 0};
+    }
+    AroundSun(double mu0, double g, int cosines, int turns)
+    {
+        const Rule rule = gaussLegendre(cosines);
+        for (std::size_t i = 0; i < rule.node.size(); ++i)
+            for (int k = 0; k < turns; ++k) {
+                Side side = at(mu0, henyeyGreensteinCosine(g, 0.5 + 0.5 * rule.node[i]), (k + 0.5) * pi / turns);
+                side.weight = 0.5 * rule.weight[i] / (turns * henyeyGreenstein(std::acos(side.cosine), g));
+                sides_.push_back(side);
+            }
+    }
+    const std::vector<Side>& all() const { return sides_; }
+
+private:
+    std::vector<Side> sides_;
+};
 
 /// Chandrasekhar's H function of isotropic scattering by the stable form of its integral equation,
 /// 1 / H(mu) = sqrt(1 - w) + w/2 integral of m H(m) / (mu + m) over 0..1  (Radiative Transfer, 1960, section 38).
@@ -197,7 +237,7 @@ TEST_CASE("energy: air that does not absorb, over white ground, returns all the 
 
 TEST_CASE("reciprocity: swapping the Sun and the camera keeps the reflection of the layer")
 {
-    const Reference reference(test::flatLayer(2, 0.95, 0, henyeyGreenstein));
+    const Reference reference(test::flatLayer(2, 0.95, 0, [](double angle) { return henyeyGreenstein(angle); }));
     struct Pair {
         double a, b, azimuth;
     };
@@ -209,6 +249,110 @@ TEST_CASE("reciprocity: swapping the Sun and the camera keeps the reflection of 
         CHECK(ab.single / p.b == Approx(ba.single / p.a).epsilon(1e-5));
         CHECK(std::abs(ab.multiple / p.b - ba.multiple / p.a) < 3 * noise);
         CHECK(noise < 0.01 * ab.total() / p.b);
+    }
+}
+
+TEST_CASE("energy: air with a sharp peak that does not absorb, over black ground, returns what the ground doesn't get")
+{
+    const double depth = 0.7;
+    const double g = 0.9;
+    const Reference reference(test::flatLayer(depth, 1, 0, [g](double angle) { return henyeyGreenstein(angle, g); }));
+    for (const double mu0 : {0.2, 0.8}) {
+        const AroundSun sides(mu0, 0.7, 20, 10);
+        double diffuse = 0, variance = 0;
+        for (const auto& side : sides.all()) {
+            const Result r =
+                reference.radiance(side.below ? fromBelow(side.mu, mu0, side.azimuth) : fromAbove(side.mu, mu0, side.azimuth), fixed(1024));
+            diffuse += side.weight * side.mu * r.total();
+            variance += std::pow(side.weight * side.mu * r.multipleStderr, 2);
+        }
+        const double share = std::exp(-depth / mu0) + diffuse / mu0, noise = std::sqrt(variance) / mu0;
+        INFO("Sun " << mu0 << ": " << share << " +- " << noise);
+        CHECK(noise < 0.006);
+        CHECK(share == Approx(1).margin(3 * noise + 5e-4)); // nodes
+    }
+}
+
+TEST_CASE("energy: a planet in air half as thick as itself, which does not absorb, returns what its black ground doesn't get")
+{
+    const double top = 3000, radius = 2000, extinction = 7e-4; // m, m, 1/m
+    for (const double g : {0., 0.9}) {
+        auto medium = test::flatLayer(0.7, 1, 0, [g](double angle) { return henyeyGreenstein(angle, g); });
+        medium.planetRadius = radius;
+        const Reference reference(medium);
+        // Sunlight that is not scattered, by that which meets the air: past the ground, and down to it, where the sine at the ground is even.
+        const auto unscattered = [&](double chord) {
+            const double x = extinction * chord;
+            return 1 - std::exp(-x) * (1 + x);
+        };
+        const double pastGround = 2 / (top * top) * unscattered(2 * std::sqrt(top * top - radius * radius)) / (4 * extinction * extinction);
+        const Rule rule = gaussLegendre(32);
+        double onGround = 0;
+        for (std::size_t i = 0; i < rule.node.size(); ++i) {
+            const double mu = 0.5 + 0.5 * rule.node[i], way = std::sqrt(top * top - radius * radius * (1 - mu * mu)) - radius * mu;
+            onGround += rule.weight[i] * mu * std::exp(-extinction * way) * std::pow(radius / top, 2);
+        }
+        double diffuse = 0, variance = 0;
+        const int count = 768;
+        for (int i = 0; i < count; ++i) {
+            // Suns evenly over the sphere; directions of light half evenly, half as it is scattered; by the additive recurrence of the root of x^4 = x + 1.
+            const auto part = [&](int k) { return std::fmod(0.5 + (i + 1) * std::pow(1.2207440846057596, -k), 1); };
+            const double muSun = 2 * part(1) - 1;
+            const bool even = i % 2;
+            const AroundSun::Side side = AroundSun::at(muSun, even ? 2 * part(2) - 1 : henyeyGreensteinCosine(g, part(2)), pi * part(3));
+            const double density = 0.5 / (4 * pi) + 0.5 * henyeyGreenstein(std::acos(side.cosine), g);
+            const Result r = reference.radiance(
+                side.below ? fromBelow(side.mu, muSun, side.azimuth) : fromAbove(side.mu, muSun, side.azimuth), fixed(64));
+            const double weight = 4 * side.mu / density * (side.below ? std::pow(radius / top, 2) : 1) / count;
+            diffuse += weight * r.total();
+            variance += std::pow(weight * r.multipleStderr, 2);
+        }
+        const double share = pastGround + onGround + diffuse, noise = std::sqrt(variance);
+        INFO("g " << g << ": " << pastGround << " past, " << onGround << " on the ground, in all " << share << " +- " << noise);
+        CHECK(noise < 0.003);
+        CHECK(share == Approx(1).margin(3 * noise + 0.01)); // 768 places
+    }
+}
+
+TEST_CASE("reciprocity: two species and bright ground, swapping the Sun and the camera keeps the reflection of all")
+{
+    const double albedo = 0.6;
+    auto medium = test::flatLayer(1, 0.95, albedo, [](double angle) { return henyeyGreenstein(angle); });
+    medium.species.push_back(medium.species[0]); // molecules, rarer upwards, beside drops that are rarer downwards
+    medium.species[0].numberDensity = {0.3, 1.7};
+    medium.species[1].numberDensity = {1.6, 0.4};
+    medium.species[1].singleScatteringAlbedo = {1};
+    for (std::size_t i = 0; i < medium.scatteringAngles.size(); ++i)
+        medium.species[1].phaseFunction[i] = test::rayleighPhase(medium.scatteringAngles[i]);
+    const Reference reference(medium);
+    /// Ground in view, lit by the sky: no part of what the reference tells. Transmittance from that by sunlight, albedo / pi mu0 T(mu0) T(mu).
+    const auto ground = [&](double mu, double mu0, double& variance) {
+        double irradiance = 0, square = 0;
+        for (const auto& side : AroundSun(mu0, 0.5, 10, 6).all()) {
+            if (!side.below)
+                continue;
+            const Result r = reference.radiance(fromBelow(side.mu, mu0, side.azimuth), fixed(2048));
+            irradiance += side.weight * side.mu * r.total();
+            square += std::pow(side.weight * side.mu * r.multipleStderr, 2);
+        }
+        const double through = std::sqrt(reference.radiance(fromAbove(mu, mu), fixed(2, 1)).groundDirect * pi / (albedo * mu));
+        variance += std::pow(albedo / pi * through, 2) * square;
+        return albedo / pi * through * irradiance;
+    };
+    struct Pair {
+        double a, b, azimuth;
+    };
+    for (const Pair p : {Pair{0.2, 0.9, 0.5}, {0.3, 0.6, 2.5}}) {
+        const Result ab = reference.radiance(fromAbove(p.a, p.b, p.azimuth), fixed(32768));
+        const Result ba = reference.radiance(fromAbove(p.b, p.a, p.azimuth), fixed(32768));
+        double abVariance = ab.multipleStderr * ab.multipleStderr, baVariance = ba.multipleStderr * ba.multipleStderr;
+        const double there = (ab.multiple + ground(p.a, p.b, abVariance)) / p.b, back = (ba.multiple + ground(p.b, p.a, baVariance)) / p.a;
+        const double noise = std::sqrt(abVariance / (p.b * p.b) + baVariance / (p.a * p.a));
+        INFO("cosines " << p.a << ' ' << p.b << " there " << there << " back " << back << " noise " << noise);
+        CHECK(ab.single / p.b == Approx(ba.single / p.a).epsilon(1e-5));
+        CHECK(ab.groundDirect / p.b == Approx(ba.groundDirect / p.a).epsilon(1e-4)); // the curvature that low light passes
+        CHECK(std::abs(there - back) < 3 * noise);
+        CHECK(noise < 0.01 * there);
     }
 }
 
