@@ -8,6 +8,7 @@
 #include "view_direction.hpp"
 #include <filesystem>
 #include <map>
+#include <random>
 
 using namespace showmysky;
 using namespace showmysky::testing;
@@ -298,6 +299,55 @@ vec3 viewDirection(vec2 position) { return position.x < 32.0 ? axisToLookAt + ve
         CHECK(quantile(differences(sky.readLuminance(), expected), 0.99) < 1e-4);
         CHECK(sky.viewDirection(7, 9)[1] == Approx(builtInDirection(camera, 60, 40, 7.5, 9.5)[1]).margin(1e-6));
     }
+}
+
+TEST_CASE("host: Sun and directions turned or mirrored together show the same sky, whatever the directions' lengths", "[gl]")
+{
+    const auto context = gl::testing::context(desktop());
+    if (!context)
+        return;
+    Sky sky = loadedSky(*context);
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> unit;
+    const int width = 32, height = 32;
+    for (const double zenith : {0., 40., 90., 97.})
+        for (const double altitude : {0., 2000., 300e3}) {
+            CAPTURE(zenith, altitude);
+            auto settings = scene(altitude, zenith);
+            const double elevation = 90 * degree - settings.sun.zenithAngle;
+            // Towards the Sun and away from it, zenith and nadir, each within units of the last place; the rest anywhere. Azimuths count from the Sun.
+            std::vector<std::array<double, 2>> views; // azimuth, elevation
+            for (const auto& [azimuth, height_] : {std::array{0., elevation}, std::array{180 * degree, -elevation},
+                                                   std::array{0., 90 * degree}, std::array{0., -90 * degree}})
+                for (int i = -8; i <= 8; ++i)
+                    views.push_back({azimuth, std::clamp(height_ + i * 1.2e-7, -90 * degree, 90 * degree)});
+            while (views.size() < width * height)
+                views.push_back({360 * degree * unit(random), std::asin(2 * unit(random) - 1)});
+            const auto drawn = [&](double turn, bool mirror, bool lengths) {
+                settings.sun.azimuth = turn;
+                sky.setSettings(settings);
+                std::vector<float> texels;
+                for (const auto& [fromSun, height_] : views) {
+                    const double azimuth = turn + (mirror ? -fromSun : fromSun), size = lengths ? std::pow(10, 6 * unit(random) - 3) : 1;
+                    for (const double c :
+                         {std::cos(height_) * std::cos(azimuth), -std::cos(height_) * std::sin(azimuth), std::sin(height_), 0.})
+                        texels.push_back(static_cast<float>(size * c));
+                }
+                gl::Texture2D directions(context->api(), "directions", gl::TextureFormat::rgba32f, width, height);
+                directions.upload(texels);
+                Camera camera;
+                camera.directionTexture = directions.name();
+                sky.draw(camera, width, height);
+                return sky.readLuminance();
+            };
+            const auto expected = drawn(0, false, false);
+            for (int i = 0; i < 10; ++i) {
+                const auto picture = drawn(40 * unit(random) - 20, i % 2 == 1, i > 1);
+                for (const auto& pixel : picture)
+                    REQUIRE((std::isfinite(pixel.y) && pixel.y >= 0));
+                CHECK(differences(picture, expected).back() < 1e-4); // roundings of directions
+            }
+        }
 }
 
 TEST_CASE("host: a model that isn't there, or vanishes", "[gl]")
