@@ -50,7 +50,7 @@ public:
         sub->add_option("--source", source_, "moments or textures (of a model made with --radiance).\nDefault: moments where there are any")
             ->option_text("NAME");
         sub->add_option("--json", json_, "Write all results there too, - for standard output in place of the table")->option_text("FILE");
-        sub->add_option("--fail-above", failAbove_, "Exit code 1 where the rms error of any line of the table is above this part")
+        sub->add_option("--fail-above", failAbove_, "Exit code 1 where the rms error of any line of the table is above this part,\nor nothing could be judged")
             ->option_text("X");
         sub->add_option("--seed", seed_, "Of the random numbers. Default 1")->option_text("N");
         return sub;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/angles.hpp"
+#include "base/error.hpp"
 #include "model/error_summary.hpp"
 #include "values.hpp"
 #include "verify_judge.hpp"
@@ -149,6 +150,10 @@ void writeJson(const Verification& v, std::ostream& to)
 
 double largestError(const Verification& v)
 {
+    if (v.rows.empty())
+        throw NumericsError("No sample of " + v.directory + " could be judged, so nothing is known of its error: " + std::to_string(v.darkRows) +
+                            " are all but without light, and of " + std::to_string(v.unsureRows) +
+                            " the reference stayed unsure. Give it more --seconds.");
     double largest = 0;
     for (const Cell& cell : cellsOf(v))
         largest = std::max(largest, cell.total.rms());

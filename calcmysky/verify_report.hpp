@@ -36,6 +36,7 @@ void printTable(const Verification& verification, std::ostream& to);
 void writeJson(const Verification& verification, std::ostream& to);
 
 /// Largest rms error of all cells, noise removed, relative.
+///   throws  NumericsError where no sample could be judged
 double largestError(const Verification& verification);
 
 } // namespace sky::cli

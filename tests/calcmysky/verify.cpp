@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fstream>
 #include <numbers>
+#include <regex>
 #include <sstream>
 
 #include <catch2/catch.hpp>
@@ -241,6 +242,9 @@ TEST_CASE("report: cells hold their rows, the largest error is found")
     CHECK(json["cells"].size() == 15);
     CHECK(json["regimes"]["sunset"]["rms_error"].get<double>() == Approx(0.03));
     CHECK(json["rows"][0]["error"].get<double>() == Approx(0.03));
+    v.rows.clear(); // an error of nothing is none, and says nothing
+    v.unsureRows = 90;
+    CHECK_THROWS_WITH(largestError(v), Contains("No sample of model could be judged") && Contains("of 90 the reference stayed unsure"));
 }
 
 TEST_CASE("verify and reference: what to look at must be said")
@@ -291,6 +295,15 @@ TEST_CASE("verify finds a good model good, and reference answers its own table",
     CHECK(json["regimes"]["sunset"]["rms_error"].get<double>() < 0.015);
     const std::size_t samples = json["rows"].size() + json["unsure_samples"].get<std::size_t>() + json["dark_samples"].get<std::size_t>();
     CHECK(samples == 90);
+
+    // Air so thin that its light is nobody's: its error isn't known, and no bound is met.
+    const std::regex thickness("cross section at 1 um: [^ ]*");
+    directory.file("dark.atmo", std::regex_replace(contentOf(earth), thickness, "cross section at 1 um: 1e-25"));
+    REQUIRE(calcmysky({"dark.atmo", "--out-dir", "dark", "--only", "moments", "-q"}).exitCode == 0);
+    const auto dark = calcmysky({"verify", "dark", "--seconds", "1", "-q", "--fail-above", "0.1"});
+    INFO(dark.output << dark.error);
+    CHECK(dark.exitCode == 1);
+    CHECK_THAT(dark.error, Contains("No sample of dark could be judged"));
 
     directory.file("q.csv", "altitude_m,sza_deg,vza_deg,relaz_deg,lambda_nm\n0,60,30,90,391.333\n");
     const auto asked = calcmysky({"reference", "model", "q.csv", "--relative-error", "0.003", "-q"});
