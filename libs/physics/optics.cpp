@@ -42,7 +42,7 @@ constexpr double fittedMoment = 0.4;
 
 /// Factor of the Legendre moment l, where a sharp series is let fade to its end. With a power of 1 it is a Gaussian, which has no ripples at
 /// all but changes low moments, and with them diffusion; 2 leaves these, and has ripples for g = 0.99. What lies between was tried on clouds,
-/// dust and generated scenes (docs/method).
+/// dust and generated scenes (docs/sharp-peaks.md).
 double fading(const int l, const int degree)
 {
     constexpr double end = 0.01, power = 1.25;
@@ -69,7 +69,7 @@ double leftOf(const double peak, const double truncated)
 double momentOf(const double share, const int l) { return share < 0 && l % 2 == 0 ? -share : share; }
 
 /// The share f of a phase function that is taken as not scattered at all. Scaling with f replaces every Legendre moment above the degree
-/// by f: the best is their mean, weighted with the light that meets them, (2l + 1) |lambda_l|^3 (the power of 3 by measurement, docs/method).
+/// by f: the best is their mean, weighted with the light that meets them, (2l + 1) |lambda_l|^3 (the power of 3 by measurement, docs/sharp-peaks.md).
 /// Where moments die out fast it is little less than the first of them; a slow tail, like that of an aureole, needs much less. But what is left of
 /// the series has to fade before its end, as far as the usual f, the first moment that is left out (Wiscombe 1977), lets it.
 double peakShare(const std::vector<double>& moments, const int degree)

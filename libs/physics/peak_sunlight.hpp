@@ -15,7 +15,7 @@ namespace sky::physics {
 ///
 /// with the true transmittance T of sunlight, the scaled optical depth tau, scattering angles theta of equal shares of the peak and position angles psi.
 /// Under a high Sun, where all those rays are as deep, it is exp(-scaled depth), as without this. Peaks of little of the light stay straight: what is
-/// left of the series makes up for that (hazy, cloudy and dusty sunsets were the worse for this, docs/method 5, Sharp peaks).
+/// left of the series makes up for that (hazy, cloudy and dusty sunsets were the worse for this, docs/sharp-peaks.md).
 class PeakSunlight
 {
 public:

@@ -9,7 +9,7 @@ namespace sky::solver {
 /// Light scattered any number of times in air over which it is everywhere the same: as it would be were there one Sun for all places. It
 /// knows no azimuths and of the harmonics the lowest, which are those that last: in deep air light spreads by diffusion, and what
 /// horizontal differences, azimuths and higher harmonics add dies out within few events. So it tells what the events that follow will add
-/// up to, up to a small rest (docs/method 5): the operator that makes one event of another, taken level by level from the same rays, is
+/// up to, up to a small rest (docs/deep-air.md): the operator that makes one event of another, taken level by level from the same rays, is
 /// small enough to be inverted.
 class LayeredLight
 {
