@@ -21,8 +21,6 @@ constexpr double levelUnevenDepth = 0.4, thickest = 1.6;
 constexpr double edgeDepth = 2;
 /// Levels that may be there for each of those evenly spread.
 constexpr int mostForEach = 8;
-/// Shells closer than this share of the atmosphere may enclose a jump.
-constexpr double closeShells = 1e-5;
 /// Closer levels are one.
 constexpr double sameLevel = 1e-6;
 /// A change of extinction over such a distance is a jump if it is more than this share of what is there,
@@ -86,9 +84,9 @@ std::vector<double> jumpsOf(const Profile& profile, const Extinction& extinction
         const double below = extinction.at(k - 1, shells[k]), above = extinction.at(k, shells[k]);
         if (std::abs(above - below) * top > jumpDepth * std::max(1., extinction.depth()))
             jumps.push_back(shells[k]);
-        if (!(shells[next] - shells[k] < closeShells * top))
+        if (!(shells[next] - shells[k] < Profile::atOnce * top))
             continue;
-        while (next + 1 < static_cast<int>(shells.size()) && shells[next + 1] - shells[k] < closeShells * top)
+        while (next + 1 < static_cast<int>(shells.size()) && shells[next + 1] - shells[k] < Profile::atOnce * top)
             ++next;
         const double beyond = extinction.at(next - 1, shells[next]), change = std::abs(beyond - above);
         if (change > jumpShare * std::max(above, beyond) && change * top > jumpDepth)

@@ -203,7 +203,7 @@ Optics makeOptics(const Medium& medium, const int degree, const bool truncate)
                     scaled, [&](double angle) { return 4 * base::pi * phaseFunctionAt(medium, species, angle, w) / (1 - f); }, blurred < 0);
             for (int l = 0; l <= degree; ++l)
                 optics.moments[(s * (degree + 1) + l) * wavelengths + w] = scaled[l];
-            if (!(f > 0))
+            if (!(f > straightPeak))
                 continue;
             std::transform(scaled.begin(), scaled.end(), scaled.begin(), [f](double moment) { return (1 - f) * moment; });
             const auto angles = anglesOfPeak(medium, species, w, scaled);

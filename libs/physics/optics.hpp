@@ -7,6 +7,9 @@ namespace sky::physics {
 /// Parts that a truncated peak is divided into by its scattering angles.
 constexpr int peakParts = 8;
 
+/// Truncated peaks of up to this share of a species' scattering always go straight on (physics/peak_sunlight).
+constexpr double straightPeak = 0.5;
+
 /// What radiative transfer needs of each species at each wavelength, with sharp forward peaks truncated (delta-M scaling) and all sharp
 /// ones blurred.
 ///
@@ -24,8 +27,9 @@ struct Optics {
     std::vector<double> truncation; ///< [species][wavelengths], f, 0..1
     std::vector<double> blurred;    ///< [species][wavelengths], b, 0..1, or of a peak backward -1..0
     std::vector<double> moments;    ///< [species][0..degree][wavelengths], lambda_l, scaled and blurred
-    std::vector<double> peakAngles; ///< [species][wavelengths][peakParts], rad: scattering angles of equal shares of a truncated peak, or 0
-    std::vector<int> scatterers;    ///< indices of the species that scatter at some wavelength
+    std::vector<double>
+        peakAngles; ///< [species][wavelengths][peakParts], rad: scattering angles of equal shares of a peak above straightPeak, or 0
+    std::vector<int> scatterers; ///< indices of the species that scatter at some wavelength
 
     double moment(int s, int l, int w) const { return moments[(s * (degree + 1) + l) * wavelengths + w]; }
 };

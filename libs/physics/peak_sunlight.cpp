@@ -1,5 +1,7 @@
 #include "physics/peak_sunlight.hpp"
 #include "base/angles.hpp"
+#include "base/parallel.hpp"
+#include "physics/straighten.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -11,12 +13,24 @@ using base::pi;
 
 constexpr int raysEachWay = 24, nodes = 16, positionAngles = 8;
 
-/// What a species' truncated peak throws aside, in units of its scaled scattering. Peaks of less than half of its light go straight on, those of
-/// three quarters are followed.
+/// What a species' truncated peak throws aside, in units of its scaled scattering. Peaks of more than `straightPeak` of its light are followed in
+/// part, those of three quarters throughout.
 double peakOf(const Optics& optics, const int s, const int w)
 {
+    constexpr double followed = 0.75;
     const double f = optics.truncation[s * optics.wavelengths + w];
-    return std::clamp(4 * f - 2, 0., 1.) * f / (1 - f);
+    return std::clamp((f - straightPeak) / (followed - straightPeak), 0., 1.) * f / (1 - f);
+}
+
+/// Of 0 .. count - 1 at most so many, evenly, the first and the last among them, and those that are `kept`; increasing.
+template<class Kept>
+std::vector<std::size_t> someOf(const std::size_t count, const std::size_t most, const Kept& kept)
+{
+    std::vector<std::size_t> result;
+    for (std::size_t i = 0; i < count; ++i)
+        if (i == 0 || i + 1 == count || kept(i) || i * (most - 1) / (count - 1) != (i - 1) * (most - 1) / (count - 1))
+            result.push_back(i);
+    return result;
 }
 
 } // namespace
@@ -143,6 +157,61 @@ void PeakSunlight::addPeaks(const double elevation, double* const result)
                 }
             result[w] += peak * sum / (peakParts * positionAngles);
         }
+}
+
+void SunTable::throwAside(const Profile& profile, const Optics& optics, const int altitudeCount, const int elevations,
+                          const base::StopRequest& stop)
+{
+    // These depths are smoother than those of sunlight that goes straight on: some rows of a large table and some of its elevations tell the others.
+    constexpr std::size_t mostRows = 48, mostElevations = 64;
+    constexpr double sliver = 0.05; // of the disc
+    const std::size_t ground = altitudes_.size(), perRow = std::size_t(elevations_) * wavelengths_;
+    const auto elevationAt = [&](double horizon, std::size_t k) { return horizon - sunRadius_ + aboveLowest(horizon, k); };
+    std::size_t low = 0; // elevations of a low Sun, above any horizon
+    while (low + 1 < std::size_t(elevations_) && elevationAt(horizon(altitudes_.back()), low) < PeakSunlight::highest)
+        ++low;
+    const auto besideJump = [&](std::size_t row) {
+        const double narrow = Profile::atOnce * planet_.topOfAtmosphere;
+        return altitudes_[row] - altitudes_[row - 1] < narrow || altitudes_[row + 1] - altitudes_[row] < narrow;
+    };
+    const auto rows = someOf(ground, mostRows, besideJump), suns = someOf(low + 1, mostElevations, [](std::size_t k) { return k < 8; });
+    std::vector<double> thrown((ground + 1) * perRow);
+    const SunTable through(profile, PeakSunlight::unscaled(optics), sunRadius_, altitudeCount, elevations, stop);
+    base::parallel([&](int thread, int threads) {
+        PeakSunlight peaks(profile, optics, through, sunRadius_);
+        for (std::size_t i = thread; i <= rows.size(); i += threads) {
+            const std::size_t row = i < rows.size() ? rows[i] : ground;
+            const double h = row < ground ? altitudes_[row] : 0, horizon = this->horizon(h);
+            peaks.place(h, row == ground);
+            std::size_t hidden = 0; // the last of the elevations that show less than a sliver of the disc
+            for (const std::size_t k : suns) {
+                base::stopIfAsked(stop);
+                double* const depth = &thrown[row * perRow + k * wavelengths_];
+                peaks.transmittance(elevationAt(horizon, k), depth);
+                const double visible = visibleDiscFraction(elevationAt(horizon, k) - horizon, sunRadius_);
+                for (int w = 0; w < wavelengths_; ++w)
+                    depth[w] = depth[w] > 0 ? std::clamp(std::log(visible / depth[w]), 0., opaque) : opaque;
+                if (visible < sliver)
+                    hidden = k;
+            }
+            // Light from higher up stays while the disc goes: depths towards a sliver of it would lift that light.
+            const std::size_t shown = *std::min(std::upper_bound(suns.begin(), suns.end(), hidden), suns.end() - 1);
+            if (sunRadius_ > 0)
+                for (const std::size_t k : suns)
+                    if (k < shown)
+                        std::copy_n(&thrown[row * perRow + shown * wavelengths_], wavelengths_, &thrown[row * perRow + k * wavelengths_]);
+            drawLines(suns, evenly(low + 1), &thrown[row * perRow], wavelengths_, wavelengths_);
+        }
+    });
+    drawLines(rows, measures_, thrown.data(), perRow, static_cast<int>(perRow));
+    for (std::size_t row = 0; row <= ground; ++row) {
+        const double horizon = this->horizon(row < ground ? altitudes_[row] : 0);
+        for (std::size_t k = 0; k <= low; ++k) {
+            const double counts = std::clamp(3 * (1 - elevationAt(horizon, k) / PeakSunlight::highest), 0., 1.);
+            for (std::size_t at = row * perRow + k * wavelengths_, end = at + wavelengths_; at < end; ++at)
+                depth_[at] += counts * (thrown[at] - depth_[at]);
+        }
+    }
 }
 
 } // namespace sky::physics

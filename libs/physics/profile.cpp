@@ -97,9 +97,8 @@ Profile::Profile(const Medium& medium, const double tolerance)
 
 void Profile::findUpperEdges(const Medium& medium)
 {
-    constexpr double narrow = 1e-5; // share of the atmosphere over which air ends at once,
-    constexpr double left = 0.5;    // if at most this share of its extinction is left
-    constexpr double little = 0.3;  // optical depth
+    constexpr double left = 0.5;   // air ends where at most this share of its extinction is left
+    constexpr double little = 0.3; // optical depth
     constexpr int least = 3, most = 20;
     std::vector<double> largest;
     for (const Species& species : medium.species)
@@ -112,7 +111,7 @@ void Profile::findUpperEdges(const Medium& medium)
     for (int end = static_cast<int>(shells_.size()) - 1; end > 0; --end) {
         const double edge = shells_[end], above = end + 1 < static_cast<int>(shells_.size()) ? extinctionAt(end, edge) : 0;
         int k = end - 1; // the first interval below that is not narrow
-        while (k > 0 && shells_[k + 1] - shells_[k] < narrow * planet_.topOfAtmosphere)
+        while (k > 0 && shells_[k + 1] - shells_[k] < atOnce * planet_.topOfAtmosphere)
             --k;
         const double atEnd = extinctionAt(k, shells_[k + 1]), below = atEnd > 0 ? atEnd : extinctionAt(k, shells_[k]);
         if (!(below > 0 && above <= left * below))
@@ -147,7 +146,7 @@ int Profile::forShadows(const int usual, const double sunRadius) const
     constexpr double most = 3;
     double highest = 0;
     for (const UpperEdge& edge : edges_)
-        if (edge.altitude < (1 - 1e-5) * planet_.topOfAtmosphere)
+        if (edge.altitude < (1 - atOnce) * planet_.topOfAtmosphere)
             highest = std::max(highest, edge.altitude);
     const double detail = -horizonElevation(planet_, highest) / std::max(2 * blurred * sunRadius, 1e-30);
     return static_cast<int>(std::lround(usual * std::clamp(detail, 1., most)));

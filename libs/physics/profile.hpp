@@ -24,6 +24,8 @@ public:
     int speciesCount() const { return species_; }
     /// Shell altitudes, m, increasing, 0 .. top. Two very close ones enclose a jump.
     const std::vector<double>& shells() const { return shells_; }
+    /// Share of the atmosphere within which what changes changes at once.
+    static constexpr double atOnce = 1e-5;
 
     /// Index k of the shell interval [shells[k], shells[k+1]] that holds the altitude.
     int intervalAt(double altitude) const;

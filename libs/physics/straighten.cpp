@@ -1,8 +1,16 @@
 #include "physics/straighten.hpp"
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace sky::physics {
+
+std::vector<double> evenly(const std::size_t points)
+{
+    std::vector<double> result(points);
+    std::iota(result.begin(), result.end(), 0.);
+    return result;
+}
 
 void straighten(const std::vector<double>& positions, double* const values, const std::size_t stride, const int count)
 {

@@ -6,6 +6,9 @@
 
 namespace sky::physics {
 
+/// Positions of nodes that are evenly spread: 0, 1, .. points - 1.
+std::vector<double> evenly(std::size_t points);
+
 /// Shifts the values of a table between which straight lines are drawn so that the lines are right in the mean: by -h^2 f'' / 12, where a line through
 /// f itself errs by h^2 f'' / 12 (its projection onto piecewise linear functions, to second order). Optical depth bends one way nearly everywhere,
 /// and light that comes from everywhere would lack what the chords have too much. Next to a bend that is no curve nothing is shifted, nor are the ends.

@@ -6,11 +6,10 @@
 #include "physics/quadrature.hpp"
 #include "physics/ray.hpp"
 #include "physics/straighten.hpp"
-#include "physics/table_axes.hpp"
+#include "physics/sun_altitudes.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
 
 namespace sky::physics {
@@ -19,23 +18,8 @@ namespace {
 
 using base::pi;
 
-/// Between two altitudes of the table that need no other between them: the vertical optical depth, and how far it may be from a
-/// straight line in the middle (a low Sun's optical depth is some five times as large while its light still counts). Then the most
-/// cells that an interval is divided into.
-constexpr double rowOpticalDepth = 0.1, rowCurvature = 1e-3;
-constexpr int mostParts = 16;
-
-/// Vertical optical depth, at the clearest wavelength, under which altitudes are no closer: 1e-9 of sunlight gets there from the zenith.
-constexpr double dark = 20;
-
-/// Optical depth behind which nothing is followed: what is left could not be told from darkness in single precision.
-constexpr double opaque = 200;
-
 /// Optical depth of a horizontal ray on its way out behind which there is no sunlight: 1e-20 of it.
 constexpr double sunlessDepth = 46;
-
-/// Share of the atmosphere between two altitudes over which a density jumps.
-constexpr double atOnce = 1e-5;
 
 /// Scale of the elevation axis for the usual sunset, rad.
 constexpr double usualScale = 0.03;
@@ -77,76 +61,6 @@ double findSunlessAltitude(const Profile& profile, const Optics& optics)
     return low;
 }
 
-/// Smallest and largest optical depth of the air between two altitudes, of all wavelengths.
-std::pair<double, double> opticalDepthBetween(const Profile& profile, const Optics& optics, double from, double to)
-{
-    constexpr int points = 4;
-    std::vector<double> n(optics.species), beta(optics.wavelengths, 0.);
-    for (int q = 0; q < points; ++q) {
-        const double h = from + (to - from) * (q + 0.5) / points;
-        profile.densities(profile.intervalAt(h), h, n.data());
-        for (int s = 0; s < optics.species; ++s)
-            for (int w = 0; w < optics.wavelengths; ++w)
-                beta[w] += n[s] * optics.extinction[s * optics.wavelengths + w] / points;
-    }
-    const auto [least, most] = std::minmax_element(beta.begin(), beta.end());
-    return {*least * (to - from), *most * (to - from)};
-}
-
-/// Altitudes between `low` and a jump of density, or the end of the air, above it, downwards: halves the way to the jump until a horizontal ray
-/// from there meets little on its way out, since its optical depth goes with the root of that way.
-std::vector<double> altitudesUnderJump(const Profile& profile, const Optics& optics, double low, double jump)
-{
-    constexpr double little = 0.3;
-    constexpr int most = 16;
-    const double way = jump - low, chord = std::sqrt(way * (2 * (profile.planet().radius + low) + way));
-    const double grazing = opticalDepthBetween(profile, optics, low, jump).second * chord / way;
-    const int count = grazing > little ? std::min(most, static_cast<int>(2 * std::log2(grazing / little)) + 1) : 0;
-    std::vector<double> result;
-    for (int i = count; i > 0; --i)
-        result.push_back(jump - way * std::ldexp(1., -i));
-    return result;
-}
-
-/// Levels for a table over altitude: evenly spread for a gentle atmosphere, both sides of every jump of the profile, and more where
-/// the air is dense or ends: between two levels optical depths are taken as linear in sqrt(r^2 - R^2), which they are not in haze or a cloud.
-std::vector<double> tableAltitudes(const Profile& profile, const Optics& optics, int count)
-{
-    const auto& p = profile.planet();
-    const double narrow = atOnce * p.topOfAtmosphere;
-    std::vector<double> all = altitudeNodes(p, count), jumps{p.topOfAtmosphere};
-    const auto& shells = profile.shells();
-    for (size_t k = 0; k + 1 < shells.size(); ++k)
-        if (shells[k + 1] - shells[k] < narrow) {
-            all.push_back(shells[k]);
-            jumps.push_back(shells[k]);
-            while (k + 1 < shells.size() && shells[k + 1] - shells[k] < narrow) // where a density goes to zero there may be hundreds
-                ++k;
-            all.push_back(shells[k]);
-        }
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
-    std::vector<double> levels{all.back()};
-    double overhead = 0; // vertical optical depth
-    for (size_t k = all.size() - 1; k-- > 0;) {
-        const double x0 = horizonDistance(p, all[k]), x1 = horizonDistance(p, all[k + 1]), middle = altitudeOfHorizon(p, 0.5 * (x0 + x1));
-        const auto [leastBelow, below] = opticalDepthBetween(profile, optics, all[k], middle);
-        const auto [leastAbove, above] = opticalDepthBetween(profile, optics, middle, all[k + 1]);
-        const double wanted = std::max((below + above) / rowOpticalDepth, std::sqrt(0.5 * std::abs(below - above) / rowCurvature));
-        const int parts = overhead > dark ? 1 : std::clamp(static_cast<int>(std::min(wanted, 1e3)) + 1, 1, mostParts);
-        if (overhead <= dark && std::find(jumps.begin(), jumps.end(), all[k + 1]) != jumps.end()) {
-            const auto under = altitudesUnderJump(profile, optics, altitudeOfHorizon(p, x1 - (x1 - x0) / parts), all[k + 1]);
-            levels.insert(levels.end(), under.begin(), under.end());
-        }
-        for (int i = parts - 1; i > 0; --i)
-            levels.push_back(altitudeOfHorizon(p, x0 + (x1 - x0) * i / parts));
-        levels.push_back(all[k]);
-        overhead += leastBelow + leastAbove;
-    }
-    std::reverse(levels.begin(), levels.end());
-    return levels;
-}
-
 /// Optical depths of rays up to some height above a horizon, closer than elevations of the table.
 ///   depthsAt  (elevation above the horizon, [wavelength])
 template<class DepthsAt>
@@ -164,25 +78,6 @@ LimbDepths limbDepths(double highest, double scale, double step, const DepthsAt&
     return {std::move(elevations), std::move(depths)};
 }
 
-/// 0, 1, .. count - 1.
-std::vector<double> evenly(const size_t count)
-{
-    std::vector<double> result(count);
-    std::iota(result.begin(), result.end(), 0.);
-    return result;
-}
-
-/// Of 0 .. count - 1 at most so many, evenly, the first and the last among them, and those that are `kept`; increasing.
-template<class Kept>
-std::vector<size_t> someOf(const size_t count, const size_t most, const Kept& kept)
-{
-    std::vector<size_t> result;
-    for (size_t i = 0; i < count; ++i)
-        if (i == 0 || i + 1 == count || kept(i) || i * (most - 1) / (count - 1) != (i - 1) * (most - 1) / (count - 1))
-            result.push_back(i);
-    return result;
-}
-
 } // namespace
 
 SunTable::SunTable(const Profile& profile, const Optics& optics, const double sunAngularRadius, const int altitudeCount,
@@ -191,7 +86,7 @@ SunTable::SunTable(const Profile& profile, const Optics& optics, const double su
       scale_(usualScale * sunsetShare(profile, largestExtinctions(optics), sunAngularRadius)),
       elevations_(static_cast<int>(
           std::lround(profile.forShadows(elevations, sunAngularRadius) * axisLength(scale_, pi / 2) / axisLength(usualScale, pi / 2)))),
-      wavelengths_(optics.wavelengths), altitudes_(tableAltitudes(profile, optics, profile.forShadows(altitudeCount, sunAngularRadius))),
+      wavelengths_(optics.wavelengths), altitudes_(sunAltitudes(profile, optics, profile.forShadows(altitudeCount, sunAngularRadius))),
       depth_((altitudes_.size() + 1) * elevations_ * optics.wavelengths)
 {
     for (const double h : altitudes_)
@@ -208,7 +103,6 @@ SunTable::SunTable(const Profile& profile, const Optics& optics, const double su
     const auto fillRow = [&](size_t row, RayTracer& tracer) {
         const bool onGround = row == altitudes_.size();
         const double h = onGround ? 0 : altitudes_[row], horizon = this->horizon(h);
-        const double range = pi / 2 - horizon + sunRadius_;
         std::optional<LimbDepths> limb;
         if (sunRadius_ > 0)
             limb = limbDepths(
@@ -221,7 +115,7 @@ SunTable::SunTable(const Profile& profile, const Optics& optics, const double su
         std::vector<double> lower(wavelengths_);
         for (int k = 0; k < elevations_; ++k) {
             base::stopIfAsked(stop);
-            const double x = scale_ * std::sinh(axisLength(scale_, range) * k / (elevations_ - 1));
+            const double x = aboveLowest(horizon, k);
             const double above = x - sunRadius_, elevation = above + horizon; // of the Sun's centre
             double* result = &depth_[(row * elevations_ + k) * wavelengths_];
             if (limb && above < fine) {
@@ -253,63 +147,6 @@ SunTable::SunTable(const Profile& profile, const Optics& optics, const double su
     straighten(measures_, depth_.data(), perRow, static_cast<int>(perRow));
 }
 
-void SunTable::throwAside(const Profile& profile, const Optics& optics, const int altitudeCount, const int elevations,
-                          const base::StopRequest& stop)
-{
-    // These depths are smoother than those of sunlight that goes straight on: some rows of a large table and some of its elevations tell the others.
-    constexpr size_t mostRows = 48, mostElevations = 64;
-    constexpr double sliver = 0.05; // of the disc
-    const size_t ground = altitudes_.size(), perRow = size_t(elevations_) * wavelengths_;
-    const auto elevationAt = [&](double horizon, size_t k) {
-        return horizon - sunRadius_ + scale_ * std::sinh(axisLength(scale_, pi / 2 - horizon + sunRadius_) * k / (elevations_ - 1));
-    };
-    size_t low = 0; // elevations of a low Sun, above any horizon
-    while (low + 1 < size_t(elevations_) && elevationAt(horizon(altitudes_.back()), low) < PeakSunlight::highest)
-        ++low;
-    const auto besideJump = [&](size_t row) {
-        const double narrow = atOnce * planet_.topOfAtmosphere;
-        return altitudes_[row] - altitudes_[row - 1] < narrow || altitudes_[row + 1] - altitudes_[row] < narrow;
-    };
-    const auto rows = someOf(ground, mostRows, besideJump), suns = someOf(low + 1, mostElevations, [](size_t k) { return k < 8; });
-    std::vector<double> thrown((ground + 1) * perRow);
-    const SunTable through(profile, PeakSunlight::unscaled(optics), sunRadius_, altitudeCount, elevations, stop);
-    base::parallel([&](int thread, int threads) {
-        PeakSunlight peaks(profile, optics, through, sunRadius_);
-        for (size_t i = thread; i <= rows.size(); i += threads) {
-            const size_t row = i < rows.size() ? rows[i] : ground;
-            const double h = row < ground ? altitudes_[row] : 0, horizon = this->horizon(h);
-            peaks.place(h, row == ground);
-            size_t hidden = 0; // the last of the elevations that show less than a sliver of the disc
-            for (const size_t k : suns) {
-                base::stopIfAsked(stop);
-                double* const depth = &thrown[row * perRow + k * wavelengths_];
-                peaks.transmittance(elevationAt(horizon, k), depth);
-                const double visible = visibleDiscFraction(elevationAt(horizon, k) - horizon, sunRadius_);
-                for (int w = 0; w < wavelengths_; ++w)
-                    depth[w] = depth[w] > 0 ? std::clamp(std::log(visible / depth[w]), 0., opaque) : opaque;
-                if (visible < sliver)
-                    hidden = k;
-            }
-            // Light from higher up stays while the disc goes: depths towards a sliver of it would lift that light.
-            const size_t shown = *std::min(std::upper_bound(suns.begin(), suns.end(), hidden), suns.end() - 1);
-            if (sunRadius_ > 0)
-                for (const size_t k : suns)
-                    if (k < shown)
-                        std::copy_n(&thrown[row * perRow + shown * wavelengths_], wavelengths_, &thrown[row * perRow + k * wavelengths_]);
-            drawLines(suns, evenly(low + 1), &thrown[row * perRow], wavelengths_, wavelengths_);
-        }
-    });
-    drawLines(rows, measures_, thrown.data(), perRow, static_cast<int>(perRow));
-    for (size_t row = 0; row <= ground; ++row) {
-        const double horizon = this->horizon(row < ground ? altitudes_[row] : 0);
-        for (size_t k = 0; k <= low; ++k) {
-            const double counts = std::clamp(3 * (1 - elevationAt(horizon, k) / PeakSunlight::highest), 0., 1.);
-            for (size_t at = row * perRow + k * wavelengths_, end = at + wavelengths_; at < end; ++at)
-                depth_[at] += counts * (thrown[at] - depth_[at]);
-        }
-    }
-}
-
 SunTable::Row SunTable::row(const double altitude) const
 {
     const size_t k = std::clamp<size_t>(std::upper_bound(altitudes_.begin(), altitudes_.end(), altitude) - altitudes_.begin(), 1,
@@ -322,6 +159,11 @@ SunTable::Row SunTable::row(const double altitude) const
 double SunTable::horizon(const double altitude) const
 {
     return horizonElevation({planet_.radius + sunless_, planet_.topOfAtmosphere - sunless_}, std::max(0., altitude - sunless_));
+}
+
+double SunTable::aboveLowest(const double horizon, const std::size_t k) const
+{
+    return scale_ * std::sinh(axisLength(scale_, pi / 2 - horizon + sunRadius_) * k / (elevations_ - 1));
 }
 
 double SunTable::axis(const double elevation, const double horizon) const

@@ -58,7 +58,12 @@ public:
     double axis(double elevation, double horizon) const;
 
 private:
-    /// Makes the depths those of PeakSunlight where the Sun is low.
+    /// Optical depth behind which nothing is followed: what is left could not be told from darkness in single precision.
+    static constexpr double opaque = 200;
+
+    /// How much higher than the lowest Sun that still shows node k of the elevation axis stands, rad.
+    double aboveLowest(double horizon, std::size_t k) const;
+    /// Makes the depths those of PeakSunlight where the Sun is low: peak_sunlight.cpp.
     void throwAside(const Profile& profile, const Optics& optics, int altitudes, int elevations, const base::StopRequest& stop);
     void opticalDepth(const Row& row, double horizon, double elevation, double* result) const;
     void transmittance(const Row& row, double horizon, double muSun, double rise, double* result) const;
