@@ -29,6 +29,8 @@ void addTo(Sums& sum, const Sums& other, const double factor)
 double relativeChange(const std::vector<double>& now, const std::vector<double>& then)
 {
     const double least = faintest * *std::max_element(now.begin(), now.end());
+    if (!std::isfinite(least))
+        return std::numeric_limits<double>::infinity();
     double squares = 0;
     std::size_t lit = 0;
     for (std::size_t i = 0; i < now.size(); ++i)

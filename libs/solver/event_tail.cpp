@@ -56,7 +56,7 @@ void EventTail::improve(const Sums& next, const Sums& earlier, const LayeredLigh
     add(missing, layers, least);
     bound(earlier);
     changes_.push_back(relativeChange(means(), then));
-    if (changes_.back() < least_) // no number is no gain
+    if (!bounded_ && changes_.back() < least_) // neither light that is cut nor no number is a gain
         least_ = changes_.back();
 }
 
@@ -95,19 +95,18 @@ void EventTail::add(const Sums& fresh, const LayeredLight& layers, const double 
             const auto at = [&](int level, int l) {
                 return point(level) * perPoint + std::size_t(physics::harmonicIndex(l, 0)) * wavelengths_ + w;
             };
-            const auto lit = [&](int level) { return light_.moments[at(level, 0)] >= least; };
             for (int a = 0; a < levels; ++a)
                 for (int l = 0; l < terms; ++l)
-                    values[a * terms + l] = lit(a) ? fresh.moments[at(a, l)] : 0;
-            values.back() = lit(0) ? fresh.irradiance[point(0) * wavelengths_ + w] : 0;
+                    values[a * terms + l] = fresh.moments[at(a, l)];
+            values.back() = fresh.irradiance[point(0) * wavelengths_ + w];
             layers.addFollowing(w, values.data());
             if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
                 continue; // a matrix that is all but singular tells nothing
             const double trust = trust_[std::size_t(sun) * wavelengths_ + w];
             for (int a = 0; a < levels; ++a) {
-                if (!lit(a))
-                    continue;
                 const double swept = light_.moments[at(a, 0)], change = trust * (values[a * terms] - fresh.moments[at(a, 0)]);
+                if (std::max(swept, swept + change) < least) // where light will come to, it goes with what there is beside it
+                    continue;
                 // A correction that would leave less is taken in part, its directions too: more of them than of light is none.
                 const double part = swept + change < leastLeft * swept ? (1 - leastLeft) * swept / -change : 1;
                 for (int l = 0; l < terms; ++l)

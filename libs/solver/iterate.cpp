@@ -274,8 +274,8 @@ Closed close(Sweeps& sweeps, const Sums& sum, const Sums& last, double tolerance
         tail.improve(swept, result.earlier, sweeps.layers(&tail.light()));
         ++count;
         // Near the end changes leap. What few sweeps made guess is worth less than what more of them tell.
-        const bool better = !(tail.remainder() >= result.remainder), surer = tail.settled() && !settled && std::isfinite(tail.remainder());
-        if (better || surer) {
+        const bool told = std::isfinite(tail.remainder()), surer = tail.settled() && !settled;
+        if (surer || (told && (tail.settled() || tail.remainder() < result.remainder))) {
             result.remainder = tail.remainder();
             result.rest = tail.light();
             settled = tail.settled();
@@ -333,8 +333,10 @@ RadiationField iterate(const gl::Api& api, const Scene& scene, const physics::Mo
             field.remainder = std::max(field.remainder, promised);
             break;
         }
-        if (event > mostSingly && !(promised < untold))
-            break; // neither way leads anywhere
+        if (event > mostSingly && !(promised < untold)) {
+            field.remainder = std::max(field.remainder, untold); // neither way leads anywhere
+            break;
+        }
         halfwayChange = series.change();
         nextLook *= 2;
     }

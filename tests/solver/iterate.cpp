@@ -168,3 +168,45 @@ TEST_CASE("iteration: through air 100 and 1000 deep that absorbs nothing comes w
         CHECK(all.total.groundIrradiance[world.grid.sunCount() - 1] == Approx(transmitted).epsilon(0.2));
     }
 }
+
+TEST_CASE("iteration: a gap of clear air between white ground and a cloud 1000 deep is lit without cliffs, up into the cloud, about sunset",
+          "[gl]")
+{
+    const auto context = gl::testing::context();
+    if (!context)
+        return;
+    // Scene 18 of seed 2 of docs/stress.md at one wavelength. Nothing is scattered in the gap, so light there is what its two sides send, again and again.
+    physics::MomentSettings settings = smallSettings(0);
+    settings.altitudes = 10;
+    settings.groundDirections = settings.limbDirections = 4;
+    settings.skyDirections = 7;
+    settings.directNodes = 32;
+    settings.nodes = 10;
+    settings.azimuths = 4;
+    const double middle = 330e3, half = 34e3, top = 1e6;
+    std::vector<double> altitudes{0}, densities{0};
+    for (int i = -100; i <= 100; ++i) {
+        altitudes.push_back(middle + half * i / 100);
+        densities.push_back(1 - std::pow(i / 100., 2));
+    }
+    altitudes.push_back(top);
+    densities.push_back(0);
+    auto medium = test::withDensity(test::layer(1, 1, 1, test::isotropicPhase, 2.56e8), altitudes, densities);
+    medium.species[0].extinctionCrossSection = {1000 / (4. / 3 * half)};
+    medium.sunAngularRadius = 0.00465;
+    const SmallWorld world(medium, settings);
+    const auto all = solver::iterate(context->api(), world.scene(), world.grid, world.settings, {0, true, 2.5e-3}, false, [](double) {});
+    // What is told at once of late light was once cut off at a share of the brightest, and fell by up to e^8 between two levels.
+    const auto& levels = world.grid.altitudes();
+    for (int sun = 0; sun < world.grid.sunCount(); ++sun) {
+        const double elevation = world.grid.sunElevation(sun) / base::pi * 180;
+        if (std::abs(elevation) > 1.5)
+            continue;
+        for (std::size_t level = 0; levels[level + 1] < middle; ++level) {
+            if (levels[level] < middle - half) // in the gap light comes from far beside
+                continue;
+            INFO("Sun at " << elevation << " degrees, from " << levels[level] << " to " << levels[level + 1] << " m");
+            CHECK(all.total.at(level + 1, sun)[0] == Approx(all.total.at(level, sun)[0]).margin(0.5).epsilon(0));
+        }
+    }
+}

@@ -197,6 +197,14 @@ TEST_CASE("event tail: more light than deep air under the zenith holds is none, 
         }
         CHECK_FALSE(tail.remainder() < 1e9);
     }
+    // Cut at every sweep it is the same after each, which is no gain.
+    solver::EventTail tail(event, layers, 1);
+    int sweeps = 0;
+    while (!tail.stalls() && sweeps < 60) {
+        tail.improve(times(tail.light(), 1.5), earlier, layers);
+        ++sweeps;
+    }
+    CHECK(sweeps < 30);
 }
 
 TEST_CASE("event tail: a matrix that is singular makes no light that is no number", "[gl]")
