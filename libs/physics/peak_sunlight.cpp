@@ -170,11 +170,13 @@ void SunTable::throwAside(const Profile& profile, const Optics& optics, const in
     std::size_t low = 0; // elevations of a low Sun, above any horizon
     while (low + 1 < std::size_t(elevations_) && elevationAt(horizon(altitudes_.back()), low) < PeakSunlight::highest)
         ++low;
-    const auto besideJump = [&](std::size_t row) {
-        const double narrow = Profile::atOnce * planet_.topOfAtmosphere;
-        return altitudes_[row] - altitudes_[row - 1] < narrow || altitudes_[row + 1] - altitudes_[row] < narrow;
+    const auto besideEdge = [&](std::size_t row) {
+        const double narrow = Profile::atOnce * planet_.topOfAtmosphere, below = altitudes_[row] - altitudes_[row - 1],
+                     above = altitudes_[row + 1] - altitudes_[row];
+        // Halving steps lead up to an edge: a low Sun lights a skin below it.
+        return below < narrow || above < narrow || above < 0.7 * below;
     };
-    const auto rows = someOf(ground, mostRows, besideJump), suns = someOf(low + 1, mostElevations, [](std::size_t k) { return k < 8; });
+    const auto rows = someOf(ground, mostRows, besideEdge), suns = someOf(low + 1, mostElevations, [](std::size_t k) { return k < 8; });
     std::vector<double> thrown((ground + 1) * perRow);
     const SunTable through(profile, PeakSunlight::unscaled(optics), sunRadius_, altitudeCount, elevations, stop);
     base::parallel([&](int thread, int threads) {

@@ -52,7 +52,8 @@ TEST_CASE("peaks of sunlight: what they throw nowhere else is what scaled depths
 
 TEST_CASE("peaks of sunlight: in air as thick as its planet they are followed to the lowest Sun that shines")
 {
-    Medium medium = sky::test::layer(1, 1, 0, [](double angle) { return sky::test::henyeyGreenstein(0.99, angle); }, 1e6, 1e6);
+    Medium medium = sky::test::layer(
+        1, 1, 0, [](double angle) { return sky::test::henyeyGreenstein(0.99, angle); }, 1e6, 1e6);
     medium.species[0].extinctionCrossSection = {5e-7};
     const Profile profile(medium);
     Optics optics = makeOptics(medium, 14, true);
@@ -67,5 +68,50 @@ TEST_CASE("peaks of sunlight: in air as thick as its planet they are followed to
         tracer.columns(0.99e6, std::sin(elevation), &column);
         INFO("elevation " << elevation);
         CHECK(light == Approx(std::exp(-column * optics.extinction[0])).epsilon(0.05));
+    }
+}
+
+TEST_CASE(
+    "peaks of sunlight: a skin of air below a sharp edge, among many shells: the table has the light that is followed to each altitude")
+{
+    // Scene 3 of seed 11 of docs/stress.md at 481 nm: g = 0.99 and isotropic air in two layers of some metres, smoke in the upper one. The table of
+    // sunlight has more altitudes than those that are followed; the skin was lit 2.5 times too brightly where they left out the way up to the edge.
+    const double top = 17.64, half = 1.7167, middle = 7.4117, step = 1e-4;
+    std::vector<double> altitudes{0, 0.2 * top - step, 0.2 * top, 0.3 * top - step, 0.3 * top};
+    for (int i = -30; i <= 30; ++i)
+        altitudes.push_back(middle + half * i / 30);
+    altitudes.insert(altitudes.end(), {0.6 * top - step, 0.6 * top, top});
+    std::vector<double> layers, smoke;
+    for (const double h : altitudes) {
+        layers.push_back(h < 0.2 * top - step / 2 ? 3 : h > 0.3 * top - step / 2 && h < 0.6 * top - step / 2 ? 1 : 0);
+        smoke.push_back(std::max(0., 1 - std::pow((h - middle) / half, 2)));
+    }
+    Medium medium = sky::test::withDensity(sky::test::layer(
+                                               1, 1, 0.3, [](double angle) { return sky::test::henyeyGreenstein(0.99, angle); }, 2.7417e7),
+                                           altitudes, layers);
+    medium.sunAngularRadius = 0.00465;
+    medium.species.push_back(sky::test::layer(1, 0.9, 0, sky::test::isotropicPhase).species.front());
+    medium.species.push_back(sky::test::layer(1, 0, 0, sky::test::isotropicPhase).species.front());
+    medium.species[1].numberDensity = layers;
+    medium.species[2].numberDensity = smoke;
+    const double extinctions[] = {0.0315, 0.589, 1.31};
+    for (int s = 0; s < 3; ++s)
+        medium.species[s].extinctionCrossSection = {extinctions[s]};
+    const Profile profile(medium);
+    const Optics optics = makeOptics(medium, 14, true);
+    const SunTable sun(profile, optics, medium.sunAngularRadius);
+    CHECK(sun.altitudes().size() > 100);
+    const SunTable through(profile, PeakSunlight::unscaled(optics), medium.sunAngularRadius);
+    PeakSunlight peaks(profile, optics, through, medium.sunAngularRadius);
+    for (const double below : {0.01, 0.03, 0.1, 0.3}) {
+        const double altitude = 0.6 * top - step - below;
+        peaks.place(altitude, false);
+        for (const double elevation : {-5e-4, 0., 1e-3, 5e-3}) {
+            double followed, told;
+            peaks.transmittance(elevation, &followed);
+            sun.transmittance(altitude, std::sin(elevation), &told);
+            INFO(below << " m below the edge, Sun at " << elevation << " rad");
+            CHECK(told == Approx(followed).epsilon(0.15).margin(3e-4));
+        }
     }
 }
