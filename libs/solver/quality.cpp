@@ -250,30 +250,36 @@ std::vector<std::string> unresolvedPeaks(const physics::Medium& medium)
         return std::accumulate(values.begin(), values.end(), 0.) / static_cast<double>(values.size());
     };
     std::vector<std::string> sentences;
-    const double all = scatteringDepth(medium);
+    double vertical = 0, horizontal = 0; // of all such scatterers
     for (const auto& species : medium.species) {
         const double mine = meanOf(physics::scatteringDepths(medium, species));
-        if (!(mine > 0.5 * all))
-            continue;
-        const double horizontal = mine * physics::horizontalColumn(medium, species) / physics::verticalColumn(medium, species);
-        if (!(horizontal > thick || meanOf(medium.groundAlbedo) > bright)) // nearly all light that it scatters comes straight from the Sun
+        if (!(mine > 0))
             continue;
         double inPeak = 0;
         for (int w = 0; w < medium.wavelengthCount(); ++w)
             inPeak = std::max(inPeak, physics::phaseMoments(medium, species, w, lastDegree)[lastDegree]);
-        if (inPeak > mostOfIt)
-            sentences.push_back(
-                "Scatterer `" + species.name + "` throws " + percent(inPeak) +
-                " of its light into a peak that is too narrow for any quality: what it scatters of light from the ground, and "
-                "of light scattered before, may be wrong by half and more, most of all near the horizon.");
+        if (!(inPeak > mostOfIt))
+            continue;
+        vertical += mine;
+        horizontal += mine * physics::horizontalColumn(medium, species) / physics::verticalColumn(medium, species);
+        sentences.push_back("Scatterer `" + species.name + "` throws " + percent(inPeak) +
+                            " of its light into a peak that is too narrow for any quality: what it scatters of light from the ground, and "
+                            "of light scattered before, may be wrong by half and more, most of all near the horizon.");
     }
-    return sentences;
+    // Where neither holds, nearly all light that they scatter comes straight from the Sun.
+    const bool seen = horizontal > thick || meanOf(medium.groundAlbedo) > bright;
+    return seen && vertical > 0.5 * scatteringDepth(medium) ? sentences : std::vector<std::string>{};
 }
 
 Options settled(Options options, const physics::Medium& medium, Progress& progress)
 {
     if (!options.qualityByTolerance || !options.tolerance)
         return options;
+    if (!unresolvedPeaks(medium).empty()) {
+        options.quality = "normal";
+        progress.warning("No error can be predicted where peaks are too narrow for any quality: taken is quality " + options.quality + ".");
+        return options;
+    }
     const Pick pick = pickQuality(*options.tolerance, medium);
     options.quality = pick.quality;
     options.predictedError = pick.predictedError;

@@ -46,10 +46,10 @@ struct Pick {
 /// The cheapest quality predicted to reach `tolerance` in such air; where none is, the cheapest of those that err least.
 Pick pickQuality(double tolerance, const physics::Medium& medium);
 
-/// Sentences about scatterers that do most of the scattering and throw more than 3/4 of their light into a peak that harmonics don't hold, a few
-/// degrees wide: to the solver such light goes straight on, or is blurred over ten degrees. Sunlight scattered once is exact all the same, so the
-/// sentence is only for air that also scatters light of the ground, or light scattered before: above a ground that reflects, or where the
-/// horizontal ray is deep. More harmonics don't help (docs/stress.md).
+/// Sentences about scatterers that throw more than 3/4 of their light into a peak that harmonics don't hold, a few degrees wide, where together
+/// they do most of the scattering: to the solver such light goes straight on, or is blurred over ten degrees. Sunlight scattered
+/// once is exact all the same but for a Sun near the horizon, so the sentence is only for air that also scatters light of the ground, or light
+/// scattered before: above a ground that reflects, or where the horizontal ray is deep. More harmonics don't help (docs/stress.md).
 std::vector<std::string> unresolvedPeaks(const physics::Medium& medium);
 
 /// `options` with their quality picked, where they ask for that. Tells `progress` what and why.

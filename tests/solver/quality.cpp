@@ -98,6 +98,15 @@ TEST_CASE("quality: scatterers of which no quality resolves the peak are named, 
     CHECK(unresolvedPeaks(dust(0.1, 0)).size() == 1);
     CHECK(unresolvedPeaks(dust(0.01, 0)).empty());
     CHECK(unresolvedPeaks(dust(1e-6, 0.3)).size() == 1);
+    // Of two alike neither does most of the scattering, of three even less.
+    auto several = dust(0.1, 0.3);
+    for (std::size_t count = 2; count <= 3; ++count) {
+        several.species.push_back(several.species.front());
+        CHECK(unresolvedPeaks(several).size() == count);
+    }
+    for (auto& species : several.species)
+        species.phaseFunction = oneOfEachKind().front().species.front().phaseFunction;
+    CHECK(unresolvedPeaks(several).empty());
 }
 
 TEST_CASE("quality: each point of the front takes longer than the one before it, and computes more finely")
@@ -160,14 +169,24 @@ TEST_CASE("tolerance: what it picked is told, as a warning where nothing reaches
         CHECK_THAT(said, Catch::Contains("quality " + result.quality + ", whose error in air with few particles is predicted to be "));
         CHECK(orderTolerance(result) < *options.tolerance);
     }
+    auto narrow = molecules(6371e3, 60e3, 8e3);
+    for (std::size_t k = 0; k < narrow.scatteringAngles.size(); ++k)
+        for (int w = 0; w < narrow.wavelengthCount(); ++w)
+            narrow.species.front().phaseFunction[k * narrow.wavelengthCount() + w] = henyeyGreenstein(0.99, narrow.scatteringAngles[k]);
+    narrow.groundAlbedo.assign(narrow.groundAlbedo.size(), 0.3);
+    options.tolerance = 0.2;
+    Ear ear;
+    CHECK_FALSE(settled(options, narrow, ear).predictedError);
+    REQUIRE(ear.warnings.size() == 1);
+    CHECK_THAT(ear.warnings.front(), Catch::StartsWith("No error can be predicted"));
     options.qualityByTolerance = false; // a quality that was given stays
     options.quality = "draft";
     options.tolerance = 1e-3;
-    Ear ear;
-    const Options kept = settled(options, air, ear);
+    Ear other;
+    const Options kept = settled(options, air, other);
     CHECK(kept.quality == "draft");
     CHECK_FALSE(kept.predictedError);
-    CHECK(ear.remarks.empty());
+    CHECK(other.remarks.empty());
     CHECK(orderTolerance(kept) == 1e-3);
 }
 
