@@ -1,5 +1,6 @@
 // The sky of a finished field: rays from the observer, which meet other points of the grid in every azimuth.
 
+#include "base/not_negative.hpp"
 #include "base/parallel.hpp"
 #include "eclipse/state.hpp"
 #include "physics/harmonics.hpp"
@@ -170,8 +171,8 @@ ViewLight ScatteredField::State::look(const Light& light, const TracedViews& vie
         for (int i = 0; i < waves && group * waves + i < wavelengths; ++i) {
             const auto at = (ray * azimuths.size() + static_cast<std::size_t>(azimuth)) * static_cast<std::size_t>(wavelengths) +
                             static_cast<std::size_t>(group * waves + i);
-            eclipsed[at] = std::max(0.f, lane[i]);
-            uneclipsed[at] = std::max(0.f, lane[waves + i]);
+            eclipsed[at] = base::notNegative(lane[i]);
+            uneclipsed[at] = base::notNegative(lane[waves + i]);
         }
     };
     const float observer = static_cast<float>(frame.observer());

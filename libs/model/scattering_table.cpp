@@ -1,6 +1,7 @@
 #include "model/scattering_table.hpp"
 #include "base/angles.hpp"
 #include "base/error.hpp"
+#include "base/not_negative.hpp"
 #include "physics/geometry.hpp"
 #include "physics/stencil.hpp"
 #include "physics/table_axes.hpp"
@@ -119,7 +120,7 @@ void ScatteringTable::sample(const std::vector<float>& slice, const double altit
             const int row = ground ? half - 1 - view.index[i] : half + view.index[i];
             for (int j = 0; j < 4; ++j)
                 v[i] += azimuth.weight[j] * double(slice[(std::size_t(row) * azimuths_ + azimuth.index[j]) * channels_ + c]);
-            v[i] = std::max(0., v[i]);
+            v[i] = base::notNegative(v[i]);
         }
         result[c] = physics::interpolateLog(view, v);
     }

@@ -1,5 +1,6 @@
 #include "base/angles.hpp"
 #include "base/lanes.hpp"
+#include "base/not_negative.hpp"
 #include "base/parallel.hpp"
 #include "physics/city.hpp"
 #include "physics/directions.hpp"
@@ -362,7 +363,7 @@ void cityRadiance(const CityAir& air, const CityField* const field, const double
         },
         radiance.data());
     for (int w = 0; w < wavelengths; ++w)
-        result[w] = std::max(0., double(radiance[w]));
+        result[w] = base::notNegative(double(radiance[w]));
     if (!view.hitsGround)
         return;
     const double there = nodeAt(air.profile().planet(), view, ray.columns.distances.back()).fromCity;

@@ -1,5 +1,6 @@
 #include "physics/glow_light.hpp"
 #include "base/angles.hpp"
+#include "base/not_negative.hpp"
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -182,8 +183,8 @@ void GlowLight::scattered(const RayCells& ray, double* const result) const
 {
     const Sums sums = along(ray);
     for (int w = 0; w < wavelengths_; ++w)
-        result[w] = std::max(0., double(sums.light[w / lanes][w % lanes]) +
-                                     (ray.hitsGround ? double(sums.through[w / lanes][w % lanes]) * reflected_[w] : 0));
+        result[w] = base::notNegative(double(sums.light[w / lanes][w % lanes]) +
+                                      (ray.hitsGround ? double(sums.through[w / lanes][w % lanes]) * reflected_[w] : 0));
 }
 
 void GlowLight::direct(const RayCells& ray, double* const result) const
@@ -197,8 +198,8 @@ void GlowLight::seen(const RayCells& ray, double* const result) const
 {
     const Sums sums = along(ray);
     for (int w = 0; w < wavelengths_; ++w)
-        result[w] = std::max(0., double(sums.light[w / lanes][w % lanes]) +
-                                     (ray.hitsGround ? double(sums.through[w / lanes][w % lanes]) * (1 + reflected_[w]) : 0));
+        result[w] = base::notNegative(double(sums.light[w / lanes][w % lanes]) +
+                                      (ray.hitsGround ? double(sums.through[w / lanes][w % lanes]) * (1 + reflected_[w]) : 0));
 }
 
 } // namespace sky::physics

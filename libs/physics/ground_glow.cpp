@@ -1,5 +1,6 @@
 #include "physics/ground_glow.hpp"
 #include "base/angles.hpp"
+#include "base/not_negative.hpp"
 #include "base/parallel.hpp"
 #include "physics/directions.hpp"
 #include "physics/glow_light.hpp"
@@ -113,9 +114,9 @@ private:
         // A cut series of a phase function may be negative somewhere; no field is.
         for (size_t a = 0; a < levels_.size(); ++a)
             for (int w = 0; w < wavelengths; ++w)
-                sums.moments[a * count + w] = std::max(0., sums.moments[a * count + w]);
+                sums.moments[a * count + w] = base::notNegative(sums.moments[a * count + w]);
         for (double& e : sums.irradiance)
-            e = std::max(0., e);
+            e = base::notNegative(e);
         return sums;
     }
 

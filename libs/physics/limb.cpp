@@ -1,5 +1,6 @@
 #include "physics/limb.hpp"
 #include "base/angles.hpp"
+#include "base/not_negative.hpp"
 #include "physics/quadrature.hpp"
 #include <algorithm>
 #include <cmath>
@@ -52,7 +53,7 @@ void LimbDepths::meanDepth(const double top, const double radius, const bool wit
         }
     if (weights > 0)
         for (int w = 0; w < wavelengths_; ++w)
-            result[w] = std::max(0., result[w] - std::log(mean[w] / weights));
+            result[w] = base::notNegative(result[w] - std::log(mean[w] / weights));
 }
 
 } // namespace sky::physics

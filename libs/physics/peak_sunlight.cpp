@@ -192,7 +192,7 @@ void SunTable::throwAside(const Profile& profile, const Optics& optics, const in
                 peaks.transmittance(elevationAt(horizon, k), depth);
                 const double visible = visibleDiscFraction(elevationAt(horizon, k) - horizon, sunRadius_);
                 for (int w = 0; w < wavelengths_; ++w)
-                    depth[w] = depth[w] > 0 ? std::clamp(std::log(visible / depth[w]), 0., opaque) : opaque;
+                    depth[w] = depth[w] <= 0 ? opaque : std::clamp(std::log(visible / depth[w]), 0., opaque);
                 if (visible < sliver)
                     hidden = k;
             }

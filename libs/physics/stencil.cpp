@@ -22,6 +22,11 @@ double intoDarkness(double x, double lit, double next)
 
 double interpolateLog(const Stencil& s, const std::array<double, 4>& values)
 {
+    double straight = 0;
+    for (int i = 0; i < 4; ++i)
+        straight += s.weight[i] * values[i];
+    if (!std::isfinite(straight)) // below, what is not positive is dark
+        return straight;
     const auto counts = [&](int i) { return s.weight[i] != 0 && values[i] > 0; };
     const double t = s.between;
     if (!(values[1] > 0) || !(values[2] > 0))

@@ -86,7 +86,7 @@ public:
     {
         const T step = c - b, room = eFolding_ + Weight(1.5) * (step < 0 ? -step : step);
         const T before = before_ * (a - b), after = after_ * (d - c), mostBefore = mostBefore_ * room, mostAfter = mostAfter_ * room;
-        return b + step_ * step + (before < mostBefore ? before : mostBefore) + (after < mostAfter ? after : mostAfter);
+        return b + step_ * step + (mostBefore < before ? mostBefore : before) + (mostAfter < after ? mostAfter : after);
     }
 
 private:
@@ -103,7 +103,7 @@ inline LogarithmBetween<double> logarithmBetween(const Stencil& levels)
 /// applied to logarithms. A zero is an edge of darkness somewhere in the cells beside it, and nothing is known of its logarithm: an
 /// outer neighbour that is dark is replaced by what the parabola through the others foretells, or less; between a lit and a dark node
 /// the light goes on falling as it did, times a straight line to zero.
-///   values  the four neighbours, >= 0
+///   values  the four neighbours, >= 0; what is not finite among them makes the result so
 double interpolateLog(const Stencil& s, const std::array<double, 4>& values);
 
 } // namespace sky::physics

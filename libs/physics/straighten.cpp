@@ -1,4 +1,5 @@
 #include "physics/straighten.hpp"
+#include "base/not_negative.hpp"
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -36,7 +37,7 @@ void straighten(const std::vector<double>& positions, double* const values, cons
             shift[i] = least / 6 * before * after / (before + after);
         }
         for (int i = 1; i + 1 < points; ++i)
-            at(i) = std::max(0., at(i) - shift[i]);
+            at(i) = base::notNegative(at(i) - shift[i]);
     }
 }
 

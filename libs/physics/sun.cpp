@@ -1,5 +1,6 @@
 #include "physics/sun.hpp"
 #include "base/angles.hpp"
+#include "base/not_negative.hpp"
 #include "base/parallel.hpp"
 #include "physics/limb.hpp"
 #include "physics/peak_sunlight.hpp"
@@ -130,7 +131,7 @@ SunTable::SunTable(const Profile& profile, const Optics& optics, const double su
             depthsOf(tracer, h, elevation - offset, lower.data());
             const double high = onGround ? std::sin(elevation + offset) : 1, low = onGround ? std::sin(elevation - offset) : 1;
             for (int w = 0; w < wavelengths_; ++w)
-                result[w] = std::max(0., result[w] - std::log((high + low * std::exp(result[w] - lower[w])) / (high + low)));
+                result[w] = base::notNegative(result[w] - std::log((high + low * std::exp(result[w] - lower[w])) / (high + low)));
         }
     };
     base::parallel([&](int thread, int threads) {

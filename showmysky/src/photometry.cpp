@@ -1,5 +1,6 @@
 #include "showmysky/photometry.hpp"
 #include "base/angles.hpp"
+#include "base/not_negative.hpp"
 #include "cities.hpp"
 #include "glow.hpp"
 #include "photometry_eclipse.hpp"
@@ -18,6 +19,7 @@ namespace physics = sky::physics;
 
 namespace {
 
+using sky::base::notNegative;
 using sky::base::pi;
 
 void checkRange(const char* name, double value, double low, double high, const char* range)
@@ -217,8 +219,7 @@ void Photometer::Inside::radiance(const View& view, const unsigned layers, Scrat
         scattered(start, nu, parts, scratch, result);
     if (layers & zeroOrder)
         addGround(start, nu, scratch, result);
-    for (int w = 0; w < wavelengths(); ++w)
-        result[w] = std::max(0., result[w] * sky.medium.solarIrradiance[w]);
+    sky.finishRadiance(result);
     if (layers & lightPollution) {
         glow->radiance(view.altitude, std::cos(view.viewZenithAngle), scratch.light.data());
         for (int w = 0; w < wavelengths(); ++w)
@@ -269,7 +270,7 @@ void Photometer::Inside::diffuse(const double altitude, const double muSun, Scra
         }
     }
     for (int w = 0; w < wavelengths(); ++w)
-        result[w] = std::max(0., result[w]);
+        result[w] = notNegative(result[w]);
 }
 
 Photometer::Photometer(const std::string& modelDirectory, const Method method)
@@ -297,8 +298,10 @@ void Photometer::radianceMany(const View* const views, const std::size_t count, 
         inside_->checkLayers(layers);
         Inside::Borrowed scratch(*inside_);
         const int wavelengths = inside_->wavelengths();
-        for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t i = 0; i < count; ++i) {
             inside_->radiance(views[i], layers, *scratch, spectra + i * wavelengths);
+            inside_->sky.checkAnswer("The radiance", spectra + i * wavelengths);
+        }
     });
 }
 
@@ -309,8 +312,10 @@ void Photometer::eclipsedRadiance(const View* const views, const Moon* const moo
         inside_->checkLayers(layers);
         Inside::Borrowed scratch(*inside_);
         const int wavelengths = inside_->wavelengths();
-        for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t i = 0; i < count; ++i) {
             inside_->eclipsed(views[i], moons[i], layers, *scratch, spectra + i * wavelengths);
+            inside_->sky.checkAnswer("The radiance", spectra + i * wavelengths);
+        }
     });
 }
 
@@ -343,6 +348,7 @@ void Photometer::cityRadiance(const View* const views, const std::size_t count, 
                 cities, views[i].altitude,
                 {sine * std::cos(views[i].viewAzimuth), -sine * std::sin(views[i].viewAzimuth), std::cos(views[i].viewZenithAngle)},
                 spectra + i * wavelengths);
+            sky.checkAnswer("The radiance of cities", spectra + i * wavelengths);
         }
     });
 }
@@ -375,6 +381,7 @@ void Photometer::transmittance(const double altitude, const double viewZenithAng
         Inside::Borrowed scratch(*inside_);
         const auto& sky = inside_->sky;
         inside_->transmittance(sky.trueOptics ? *sky.trueOptics : sky.optics, altitude, std::cos(viewZenithAngle), *scratch, spectrum);
+        sky.checkAnswer("The transmittance", spectrum);
     });
 }
 
@@ -391,6 +398,7 @@ void Photometer::sunIrradiance(const double altitude, const double sunZenithAngl
             std::fill(spectrum, spectrum + inside_->wavelengths(), 1.);
         for (int w = 0; w < inside_->wavelengths(); ++w)
             spectrum[w] *= sky.medium.solarIrradiance[w];
+        sky.checkAnswer("The Sun's irradiance", spectrum);
     });
 }
 
@@ -416,11 +424,14 @@ void Photometer::horizontalIrradiance(const double altitude, const double sunZen
             // Truncated peaks count as sunlight inside; to others they are light of the sky.
             sunlight(sky.optics, scratch->light.data());
             for (int w = 0; w < wavelengths; ++w)
-                diffuse[w] = std::max(0., diffuse[w] + scratch->light[w] - unscattered[w]) * sky.medium.solarIrradiance[w];
+                diffuse[w] = notNegative(diffuse[w] + scratch->light[w] - unscattered[w]) * sky.medium.solarIrradiance[w];
+            sky.checkAnswer("The irradiance by the sky", diffuse);
         }
-        if (direct)
+        if (direct) {
             for (int w = 0; w < wavelengths; ++w)
                 direct[w] = unscattered[w] * sky.medium.solarIrradiance[w];
+            sky.checkAnswer("The irradiance by the Sun", direct);
+        }
     });
 }
 

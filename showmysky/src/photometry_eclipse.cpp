@@ -109,8 +109,7 @@ void EclipsePhotometry::radiance(const Photometer::View& view, const Moon& moon,
         for (std::size_t w = 0; w < wavelengths; ++w)
             result[w] += skyRatio[w] * light[w];
     }
-    for (std::size_t w = 0; w < wavelengths; ++w)
-        result[w] = std::max(0., result[w] * sky_.medium.solarIrradiance[w]);
+    sky_.finishRadiance(result);
 }
 
 } // namespace showmysky

@@ -28,6 +28,15 @@ struct PhotometryModel {
     std::optional<sky::physics::SunTable> trueSun;
     sky::physics::SkyEvaluator evaluator;
     std::vector<std::array<double, 4>> luminanceWeights; ///< [wavelength]{X, Y, Z, scotopic}
+    std::vector<double> brightest; ///< [wavelength], mean radiance of the field where that is largest, per unit solar irradiance
+
+    /// Light as it was added up, per unit solar irradiance: made W m^-2 sr^-1 nm^-1, and darkness where the degrees of a phase function cut
+    /// short come to less than none.
+    ///   throws  other: far too much less than none; what isn't a number is left to checkAnswer()
+    void finishRadiance(double* spectrum) const;
+    /// Every number that leaves the library is one.
+    ///   what    the radiance, ..     throws  other
+    void checkAnswer(const char* what, const double* spectrum) const;
 
     /// Direct sunlight as it is, without what truncated peaks count as unscattered.
     const sky::physics::SunTable& directSun() const { return trueSun ? *trueSun : sun; }

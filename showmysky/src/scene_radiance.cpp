@@ -2,6 +2,7 @@
 #include "scene.hpp"
 
 #include "base/angles.hpp"
+#include "base/not_negative.hpp"
 #include "bodies.hpp"
 #include "physics/air_entry.hpp"
 #include "physics/sky.hpp"
@@ -93,7 +94,7 @@ std::vector<double> Scene::spectralRadiance(const std::array<double, 3>& directi
             result[w] += ratios.sky[w] * multiple[w];
     }
     for (std::size_t w = 0; w < wavelengths; ++w)
-        result[w] = std::max(0., result[w]) * medium.solarIrradiance[w] *
+        result[w] = sky::base::notNegative(result[w]) * medium.solarIrradiance[w] *
                     (settings_.solarSpectrumFactors.empty() ? 1 : settings_.solarSpectrumFactors[w]);
     if (settings_.layers.lightPollution && !settings_.cities.empty())
         cities_->addRadiance(settings_.cities, settings_.altitude, view, result.data());

@@ -4,7 +4,15 @@
 #include "support.hpp"
 #include <catch2/catch.hpp>
 #include <functional>
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+#include <ImfOutputFile.h>
+#include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 
 using namespace sky;
@@ -37,6 +45,30 @@ struct Change {
     std::function<void(Json&)> apply;
     const char* expected;
 };
+
+/// Puts a value into all channels of a texel of an image of floats, as another program might.
+void spoilTexel(const fs::path& file, const int row, const int column, const float value)
+{
+    std::optional<Imf::InputFile> in(std::in_place, file.c_str());
+    const Imf::Header header = in->header();
+    const auto box = header.dataWindow();
+    const int width = box.max.x + 1, height = box.max.y + 1;
+    std::map<std::string, std::vector<float>> images;
+    Imf::FrameBuffer frame;
+    for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {
+        auto& image = images[channel.name()];
+        image.resize(static_cast<std::size_t>(width) * height);
+        frame.insert(channel.name(), Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(image.data()), sizeof(float), sizeof(float) * width));
+    }
+    in->setFrameBuffer(frame);
+    in->readPixels(0, height - 1);
+    in.reset();
+    for (auto& [name, image] : images)
+        image[static_cast<std::size_t>(row) * width + column] = value;
+    Imf::OutputFile out(file.c_str(), header);
+    out.setFrameBuffer(frame);
+    out.writePixels(height);
+}
 
 // Whatever is read from it, a broken model gives its values or a ModelError.
 void readEverything(const fs::path& directory)
@@ -218,6 +250,27 @@ TEST_CASE("truncated images and manifests of any length give an error, never a c
     const std::string manifest = readFile(m / "manifest.json");
     for (std::size_t length = 0; length + 2 < manifest.size(); length += 61)
         CHECK_THAT(messageOf([&] { parseManifest(manifest.substr(0, length), "x"); }), Catch::Contains("not valid JSON"));
+}
+
+TEST_CASE("an image with a value that is no radiance is refused with its row")
+{
+    const float limit = std::numeric_limits<float>::infinity();
+    for (const auto& [value, said] : {std::pair{std::numeric_limits<float>::quiet_NaN(), "row 3 is not finite"},
+                                      {limit, "row 3 is not finite"},
+                                      {-1.f, "row 3 is negative"}}) {
+        const Scratch scratch;
+        const fs::path m = scratch.path / "m", file = m / "radiance.exr";
+        writeSmallModel(m);
+        const std::string before = "\"radiance.exr\": {\n      \"bytes\": " + std::to_string(fs::file_size(file));
+        spoilTexel(file, 3, 1, value);
+        std::string manifest = readFile(m / "manifest.json");
+        const std::size_t at = manifest.find(before);
+        REQUIRE(at != std::string::npos);
+        manifest.replace(at, before.size(), "\"radiance.exr\": {\n      \"bytes\": " + std::to_string(fs::file_size(file)));
+        writeFile(m / "manifest.json", manifest);
+        CHECK_THAT(messageOf([&] { Model::open(m).readAll("radiance"); }), Catch::Contains("radiance.exr") && Catch::Contains(said));
+        CHECK(messageOf([&] { Model::open(m).readRows("radiance", 4, 2); }) == "no error"); // the damage is in one row alone
+    }
 }
 
 TEST_CASE("random damage never crashes the reader")

@@ -3,6 +3,8 @@
 #include "physics/stencil.hpp"
 #include <catch2/catch.hpp>
 #include <functional>
+#include <limits>
+#include <utility>
 
 using namespace sky::physics;
 
@@ -140,4 +142,23 @@ TEST_CASE("stencil: a Sun near the zenith is interpolated from both sides of it"
     CHECK_FALSE(sunStencil(2.5, n).beyondZenith);
     const auto plain = uniformStencil(2.5, n);
     CHECK(sunStencil(2.5, n).stencil.weight == plain.weight);
+}
+
+TEST_CASE("stencil: what is no number among the neighbours makes none, and not darkness")
+{
+    for (const double between : {0., 0.3, 1.})
+        for (const double light : {0., 1e-5}) // beside a dark node too
+            for (int i = 0; i < 4; ++i)
+                for (const double flaw : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+                    std::array<double, 4> values{0.5, 1, light, 0.1};
+                    values[static_cast<std::size_t>(i)] = flaw;
+                    INFO("neighbour " << i << " at " << between);
+                    CHECK_FALSE(std::isfinite(interpolateLog(uniformStencil(3 + between, 9), values)));
+                }
+    std::array<double, 4> logarithms{0, -1, -2, -3};
+    for (double& logarithm : logarithms) {
+        const double sound = std::exchange(logarithm, std::numeric_limits<double>::quiet_NaN());
+        CHECK(std::isnan(logarithmBetween(uniformStencil(3.3, 9))(logarithms[0], logarithms[1], logarithms[2], logarithms[3])));
+        logarithm = sound;
+    }
 }

@@ -1,6 +1,8 @@
 // Directions, heights and Suns at which other programs showed black pixels, stripes, seams and stairs. docs/stress.md
 
 #include "base/angles.hpp"
+#include "photometry_gather.hpp"
+#include "photometry_model.hpp"
 #include "showmysky/photometry.hpp"
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -85,6 +87,23 @@ TEST_CASE("turning camera and Sun together changes nothing, wherever they point"
         const double view = i % 3 ? std::acos(2 * unit(random) - 1) : sun;
         // The difference of two azimuths loses some 2e-15 rad; the rest is floats.
         REQUIRE(difference(radiance({0, sun, turn, view, azimuth + turn}), radiance({0, sun, 0, view, azimuth})) < 1e-5);
+    }
+}
+
+TEST_CASE("what is added up anywhere in ordinary air is light: nothing less than none that answers would take for darkness")
+{
+    const showmysky::PhotometryModel model(SHOWMYSKY_TEST_MODEL);
+    const showmysky::FastGather gather(model.medium, model.optics, model.sun, &*model.moments, {}, &model.aureole);
+    showmysky::FastScratch scratch;
+    std::vector<double> light(static_cast<std::size_t>(model.medium.wavelengthCount()));
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> unit;
+    for (int i = 0; i < 5000; ++i) {
+        const double mu = 2 * unit(random) - 1, muSun = 2 * unit(random) - 1, altitude = i % 4 * model.medium.topOfAtmosphere / 3;
+        const double nu = std::clamp(mu * muSun + std::sqrt((1 - mu * mu) * (1 - muSun * muSun)) * std::cos(pi * unit(random)), -1., 1.);
+        gather.radiance(scratch, altitude, mu, muSun, nu, {i % 3 > 0, true, i % 3 > 1}, light.data());
+        INFO("altitude " << altitude << " view " << mu << " Sun " << muSun << " nu " << nu);
+        REQUIRE(*std::min_element(light.begin(), light.end()) >= 0);
     }
 }
 

@@ -17,6 +17,7 @@ JUMP = 0.05 # of the radiance: between two views or places that are all but the 
 SURPLUS = 1.05 # of the energy that comes in: the quadratures of these checks are good to a few per cent
 PEAK = math.radians(6) # about the Sun
 SCATTERED = 2 | 4 # layers of the photometer: once, and more often
+UNSUPPORTED = 3 # showmysky_photometry_status
 DARKNESS = 1e-14 # of sunlight, per sr: less is nobody's light, as `calcmysky verify` has it too
 
 
@@ -70,6 +71,7 @@ def place(row):
 
 
 def judge_values(light, layers, facts):
+    """What is no number, or far less than no light, the library itself refuses with a sentence: that ends this program, and so the campaign has it."""
     rows = special_places(facts)
     values = light.radiance(*rows.T, layers=layers)
     bad = ~np.isfinite(values).all(axis=1)
@@ -190,7 +192,9 @@ def judge(model, facts):
         layers = showmysky.WHOLE_SKY
         try:
             fast.radiance(0.0, 0.0, 0.0)
-        except showmysky.Error: # one order, or nothing scatters: there are no moments
+        except showmysky.Error as error: # one order, or nothing scatters: there are no moments
+            if error.status != UNSUPPORTED:
+                raise
             layers = showmysky.SINGLE_SCATTERING
         complaints = [complaint for law in (judge_values, judge_steps, judge_energy, judge_without_sky) for complaint in law(fast, layers, facts)]
         return {"complaints": complaints, "error": judge_methods(fast, reference, layers, facts),
