@@ -35,7 +35,11 @@ int main(int argc, char** argv)
         }
         std::vector<std::string> warnings; // solve() will give them
         const auto medium = solver::evaluateMedium(description, context->api(), warnings);
-        return solver::plan(description, solver::settled(options, medium, progress), &medium);
+        const auto settled = solver::settled(options, medium, progress);
+        auto plan = solver::plan(description, settled, &medium);
+        if (const auto sentence = solver::beyondMemory(plan, settled))
+            progress.warning(*sentence);
+        return plan;
     };
     services.solve = [](const atmo::Description& description, const solver::Options& options, const gl::HeadlessOptions& openGl,
                         const std::filesystem::path& outDir, solver::Progress& progress) {

@@ -12,6 +12,7 @@ namespace {
 using base::pi;
 
 constexpr int raysEachWay = 24, nodes = 16, positionAngles = 8;
+constexpr std::size_t mostElevations = 64; // that are followed
 
 /// What a species' truncated peak throws aside, in units of its scaled scattering. Peaks of more than `straightPeak` of its light are followed in
 /// part, those of three quarters throughout.
@@ -65,6 +66,24 @@ bool PeakSunlight::matters(const Profile& profile, const Optics& optics)
         }
     }
     return false;
+}
+
+std::vector<std::size_t> PeakSunlight::followedAltitudes(const std::vector<double>& altitudes)
+{
+    constexpr std::size_t most = 48;
+    const double narrow = Profile::atOnce * altitudes.back();
+    return someOf(altitudes.size(), most, [&](std::size_t row) {
+        const double below = altitudes[row] - altitudes[row - 1], above = altitudes[row + 1] - altitudes[row];
+        // Halving steps lead up to an edge: a low Sun lights a skin below it.
+        return below < narrow || above < narrow || above < 0.7 * below;
+    });
+}
+
+double PeakSunlight::secondsOfRow(const Optics& optics, const double shells)
+{
+    constexpr double rays = 2 * raysEachWay + 1, angles = peakParts * positionAngles;
+    return 7e-7 * rays * shells * optics.species +
+           mostElevations * optics.wavelengths * (5.6e-9 * rays * nodes * double(optics.scatterers.size()) + 3e-8 * angles);
 }
 
 PeakSunlight::PeakSunlight(const Profile& profile, const Optics& optics, const SunTable& unscaled, const double sunRadius)
@@ -162,56 +181,57 @@ void PeakSunlight::addPeaks(const double elevation, double* const result)
 void SunTable::throwAside(const Profile& profile, const Optics& optics, const int altitudeCount, const int elevations,
                           const base::StopRequest& stop)
 {
-    // These depths are smoother than those of sunlight that goes straight on: some rows of a large table and some of its elevations tell the others.
-    constexpr std::size_t mostRows = 48, mostElevations = 64;
     constexpr double sliver = 0.05; // of the disc
     const std::size_t ground = altitudes_.size(), perRow = std::size_t(elevations_) * wavelengths_;
     const auto elevationAt = [&](double horizon, std::size_t k) { return horizon - sunRadius_ + aboveLowest(horizon, k); };
     std::size_t low = 0; // elevations of a low Sun, above any horizon
     while (low + 1 < std::size_t(elevations_) && elevationAt(horizon(altitudes_.back()), low) < PeakSunlight::highest)
         ++low;
-    const auto besideEdge = [&](std::size_t row) {
-        const double narrow = Profile::atOnce * planet_.topOfAtmosphere, below = altitudes_[row] - altitudes_[row - 1],
-                     above = altitudes_[row + 1] - altitudes_[row];
-        // Halving steps lead up to an edge: a low Sun lights a skin below it.
-        return below < narrow || above < narrow || above < 0.7 * below;
-    };
-    const auto rows = someOf(ground, mostRows, besideEdge), suns = someOf(low + 1, mostElevations, [](std::size_t k) { return k < 8; });
-    std::vector<double> thrown((ground + 1) * perRow);
-    const SunTable through(profile, PeakSunlight::unscaled(optics), sunRadius_, altitudeCount, elevations, stop);
-    base::parallel([&](int thread, int threads) {
-        PeakSunlight peaks(profile, optics, through, sunRadius_);
-        for (std::size_t i = thread; i <= rows.size(); i += threads) {
-            const std::size_t row = i < rows.size() ? rows[i] : ground;
-            const double h = row < ground ? altitudes_[row] : 0, horizon = this->horizon(h);
-            peaks.place(h, row == ground);
-            std::size_t hidden = 0; // the last of the elevations that show less than a sliver of the disc
-            for (const std::size_t k : suns) {
-                base::stopIfAsked(stop);
-                double* const depth = &thrown[row * perRow + k * wavelengths_];
-                peaks.transmittance(elevationAt(horizon, k), depth);
-                const double visible = visibleDiscFraction(elevationAt(horizon, k) - horizon, sunRadius_);
-                for (int w = 0; w < wavelengths_; ++w)
-                    depth[w] = depth[w] <= 0 ? opaque : std::clamp(std::log(visible / depth[w]), 0., opaque);
-                if (visible < sliver)
-                    hidden = k;
+    const auto rows = PeakSunlight::followedAltitudes(altitudes_),
+               suns = someOf(low + 1, mostElevations, [](std::size_t k) { return k < 8; });
+    const std::size_t perFollowed = (low + 1) * wavelengths_;
+    std::vector<double> followed((rows.size() + 1) * perFollowed); // the ground comes last
+    {
+        const SunTable through(profile, PeakSunlight::unscaled(optics), sunRadius_, altitudeCount, elevations, stop);
+        base::parallel([&](int thread, int threads) {
+            PeakSunlight peaks(profile, optics, through, sunRadius_);
+            for (std::size_t i = thread; i <= rows.size(); i += threads) {
+                const double h = i < rows.size() ? altitudes_[rows[i]] : 0, horizon = this->horizon(h);
+                double* const row = &followed[i * perFollowed];
+                peaks.place(h, i == rows.size());
+                std::size_t hidden = 0; // the last of the elevations that show less than a sliver of the disc
+                for (const std::size_t k : suns) {
+                    base::stopIfAsked(stop);
+                    double* const depth = row + k * wavelengths_;
+                    peaks.transmittance(elevationAt(horizon, k), depth);
+                    const double visible = visibleDiscFraction(elevationAt(horizon, k) - horizon, sunRadius_);
+                    for (int w = 0; w < wavelengths_; ++w)
+                        depth[w] = depth[w] <= 0 ? opaque : std::clamp(std::log(visible / depth[w]), 0., opaque);
+                    if (visible < sliver)
+                        hidden = k;
+                }
+                // Light from higher up stays while the disc goes: depths towards a sliver of it would lift that light.
+                const std::size_t shown = *std::min(std::upper_bound(suns.begin(), suns.end(), hidden), suns.end() - 1);
+                if (sunRadius_ > 0)
+                    for (const std::size_t k : suns)
+                        if (k < shown)
+                            std::copy_n(row + shown * wavelengths_, wavelengths_, row + k * wavelengths_);
+                drawLines(suns, evenly(low + 1), row, wavelengths_, wavelengths_);
             }
-            // Light from higher up stays while the disc goes: depths towards a sliver of it would lift that light.
-            const std::size_t shown = *std::min(std::upper_bound(suns.begin(), suns.end(), hidden), suns.end() - 1);
-            if (sunRadius_ > 0)
-                for (const std::size_t k : suns)
-                    if (k < shown)
-                        std::copy_n(&thrown[row * perRow + shown * wavelengths_], wavelengths_, &thrown[row * perRow + k * wavelengths_]);
-            drawLines(suns, evenly(low + 1), &thrown[row * perRow], wavelengths_, wavelengths_);
-        }
-    });
-    drawLines(rows, measures_, thrown.data(), perRow, static_cast<int>(perRow));
+        });
+    }
+    std::vector<double> thrown((ground + 1) * perFollowed);
+    for (std::size_t i = 0; i <= rows.size(); ++i)
+        std::copy_n(&followed[i * perFollowed], perFollowed, &thrown[(i < rows.size() ? rows[i] : ground) * perFollowed]);
+    drawLines(rows, measures_, thrown.data(), perFollowed, static_cast<int>(perFollowed));
     for (std::size_t row = 0; row <= ground; ++row) {
         const double horizon = this->horizon(row < ground ? altitudes_[row] : 0);
         for (std::size_t k = 0; k <= low; ++k) {
             const double counts = std::clamp(3 * (1 - elevationAt(horizon, k) / PeakSunlight::highest), 0., 1.);
-            for (std::size_t at = row * perRow + k * wavelengths_, end = at + wavelengths_; at < end; ++at)
-                depth_[at] += counts * (thrown[at] - depth_[at]);
+            double* const depth = &depth_[row * perRow + k * wavelengths_];
+            const double* const aside = &thrown[row * perFollowed + k * wavelengths_];
+            for (int w = 0; w < wavelengths_; ++w)
+                depth[w] += counts * (aside[w] - depth[w]);
         }
     }
 }

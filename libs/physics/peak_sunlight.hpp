@@ -26,6 +26,13 @@ public:
     static Optics unscaled(Optics optics);
     /// Whether peaks throw aside a part of horizontal sunlight that counts.
     static bool matters(const Profile& profile, const Optics& optics);
+    /// Which of a table's altitudes are followed, increasing: these depths are smoother than those of sunlight that goes straight on, and some of a large
+    /// table tell the others.
+    ///   altitudes  0 .. top
+    static std::vector<std::size_t> followedAltitudes(const std::vector<double>& altitudes);
+
+    /// Processor time of a row of the table, roughly.
+    static double secondsOfRow(const Optics& optics, double shells);
 
     ///   unscaled  sunlight through the air's true extinction     sunRadius  angular, rad
     PeakSunlight(const Profile& profile, const Optics& optics, const SunTable& unscaled, double sunRadius);

@@ -22,10 +22,24 @@ using base::pi;
 /// Optical depth of a horizontal ray on its way out behind which there is no sunlight: 1e-20 of it.
 constexpr double sunlessDepth = 46;
 
+/// Radii of the Sun up to which, above the horizon, light is followed from each part of the disc.
+constexpr double fineRadii = 3;
+
 /// Scale of the elevation axis for the usual sunset, rad.
 constexpr double usualScale = 0.03;
 
 double axisLength(double scale, double range) { return std::asinh(range / scale); }
+
+double scaleOfAxis(const Profile& profile, const Optics& optics, double sunRadius)
+{
+    return usualScale * sunsetShare(profile, largestExtinctions(optics), sunRadius);
+}
+
+/// So many that steps stay as long as usual where the scale is smaller, and shadows' edges get their share.
+int elevationsOn(double scale, const Profile& profile, double sunRadius, int usual)
+{
+    return static_cast<int>(std::lround(profile.forShadows(usual, sunRadius) * axisLength(scale, pi / 2) / axisLength(usualScale, pi / 2)));
+}
 
 /// Optical depths from an altitude to space, [wavelength]; less where all have passed `deepest`.
 ///   columns  scratch memory, [species]
@@ -62,15 +76,21 @@ double findSunlessAltitude(const Profile& profile, const Optics& optics)
     return low;
 }
 
-/// Optical depths of rays up to some height above a horizon, closer than elevations of the table.
+/// Rays below the highest elevation of limbDepths, closer than elevations of the table.
+int limbRays(double highest, double scale, double step)
+{
+    constexpr double closer = 4;
+    constexpr int least = 8;
+    return std::max(least, static_cast<int>(closer * axisLength(scale, highest) / step)) + 1;
+}
+
+/// Optical depths of rays up to some height above a horizon.
 ///   depthsAt  (elevation above the horizon, [wavelength])
 template<class DepthsAt>
 LimbDepths limbDepths(double highest, double scale, double step, const DepthsAt& depthsAt, int wavelengths)
 {
-    constexpr double closer = 4;
-    constexpr int least = 8;
     const double length = axisLength(scale, highest);
-    const int rays = std::max(least, static_cast<int>(closer * length / step)) + 1;
+    const int rays = limbRays(highest, scale, step);
     std::vector<double> elevations(rays), depths(size_t(rays) * wavelengths);
     for (int i = 0; i < rays; ++i) {
         elevations[i] = scale * std::sinh(length * i / (rays - 1));
@@ -84,9 +104,7 @@ LimbDepths limbDepths(double highest, double scale, double step, const DepthsAt&
 SunTable::SunTable(const Profile& profile, const Optics& optics, const double sunAngularRadius, const int altitudeCount,
                    const int elevations, const base::StopRequest& stop)
     : planet_(profile.planet()), sunRadius_(sunAngularRadius), sunless_(findSunlessAltitude(profile, optics)),
-      scale_(usualScale * sunsetShare(profile, largestExtinctions(optics), sunAngularRadius)),
-      elevations_(static_cast<int>(
-          std::lround(profile.forShadows(elevations, sunAngularRadius) * axisLength(scale_, pi / 2) / axisLength(usualScale, pi / 2)))),
+      scale_(scaleOfAxis(profile, optics, sunAngularRadius)), elevations_(elevationsOn(scale_, profile, sunAngularRadius, elevations)),
       wavelengths_(optics.wavelengths), altitudes_(sunAltitudes(profile, optics, profile.forShadows(altitudeCount, sunAngularRadius))),
       depth_((altitudes_.size() + 1) * elevations_ * optics.wavelengths)
 {
@@ -100,7 +118,7 @@ SunTable::SunTable(const Profile& profile, const Optics& optics, const double su
     };
     // Near the horizon the transmittance changes by factors over the disc, higher up it is linear: two points with the disc's second moment (a quarter
     // of the radius squared) serve, and further up the centre alone.
-    const double fine = 3 * sunRadius_, step = axisLength(scale_, pi / 2) / (elevations_ - 1);
+    const double fine = fineRadii * sunRadius_, step = axisLength(scale_, pi / 2) / (elevations_ - 1);
     const auto fillRow = [&](size_t row, RayTracer& tracer) {
         const bool onGround = row == altitudes_.size();
         const double h = onGround ? 0 : altitudes_[row], horizon = this->horizon(h);
@@ -146,6 +164,29 @@ SunTable::SunTable(const Profile& profile, const Optics& optics, const double su
     for (size_t row = 0; row <= altitudes_.size(); ++row)
         straighten(even, &depth_[row * perRow], wavelengths_, wavelengths_);
     straighten(measures_, depth_.data(), perRow, static_cast<int>(perRow));
+}
+
+SunTable::Cost SunTable::costOf(const Profile& profile, const Optics& optics, const double sunAngularRadius, const int altitudeCount,
+                                const int elevationCount)
+{
+    const auto altitudes = sunAltitudes(profile, optics, profile.forShadows(altitudeCount, sunAngularRadius));
+    const double scale = scaleOfAxis(profile, optics, sunAngularRadius), length = axisLength(scale, pi / 2);
+    const double elevations = elevationsOn(scale, profile, sunAngularRadius, elevationCount);
+    const double rows = double(altitudes.size()) + 1, wavelengths = optics.wavelengths, shells = double(profile.shells().size());
+    Cost cost{};
+    cost.bytes = rows * elevations * wavelengths * sizeof(double);
+    cost.peakBytes = cost.bytes;
+    // Rays; means over the disc near the horizon; depths. Seconds of an x86 processor of 2024.
+    const double besideLimb = fineRadii + 1, inDisc = limbRays(besideLimb * sunAngularRadius, scale, length / (elevations - 1));
+    const double onLimb = elevations * axisLength(scale, besideLimb * sunAngularRadius) / length;
+    cost.seconds = rows * ((2 * elevations + inDisc) * (4e-7 + 1.5e-9 * shells * optics.species) +
+                           (4.8e-9 * onLimb * (16 + inDisc) + 6.7e-9 * elevations) * wavelengths);
+    if (PeakSunlight::matters(profile, optics)) {
+        const double followed = double(PeakSunlight::followedAltitudes(altitudes).size()) + 1;
+        cost.peakBytes += cost.bytes * (1 + followed / rows); // sunlight without peaks, and what they throw
+        cost.seconds = 2 * cost.seconds + followed * PeakSunlight::secondsOfRow(optics, shells);
+    }
+    return cost;
 }
 
 SunTable::Row SunTable::row(const double altitude) const

@@ -24,6 +24,15 @@ public:
              int elevations = usualElevations, const base::StopRequest& stop = {});
     static constexpr int usualAltitudes = 56, usualElevations = 112;
 
+    /// What a table takes, known before it is made.
+    struct Cost {
+        double bytes;     ///< of the table
+        double peakBytes; ///< while it is made, the table included
+        double seconds;   ///< of processor time, roughly
+    };
+    static Cost costOf(const Profile& profile, const Optics& optics, double sunAngularRadius, int altitudes = usualAltitudes,
+                       int elevations = usualElevations);
+
     const std::vector<double>& altitudes() const { return altitudes_; }
     int elevationCount() const { return elevations_; }
     /// Up to this altitude no light passes through the air horizontally: to sunlight it is the ground. m; 0 where the air is not so opaque.

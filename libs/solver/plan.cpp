@@ -1,4 +1,5 @@
 #include "solver/plan.hpp"
+#include "physics/sun.hpp"
 #include "solver/eclipse_table.hpp"
 #include "solver/light_pollution.hpp"
 #include "solver/quality.hpp"
@@ -24,10 +25,31 @@ bool anyPositive(const atmo::Spectrum& spectrum)
 /// False for particles that only absorb, or do nothing: no table is made for them.
 bool scattersLight(const atmo::Scatterer& s) { return s.crossSectionAt1um > 0 && anyPositive(s.singleScatteringAlbedo); }
 
+double layersOf(const atmo::SizeScattering& s, const Options& options)
+{
+    return options.altitudeLayers ? options.altitudeLayers->second - options.altitudeLayers->first + 1 : s.altitude;
+}
+
 double texels(const atmo::SizeScattering& s, const Options& options)
 {
-    const double layers = options.altitudeLayers ? options.altitudeLayers->second - options.altitudeLayers->first + 1 : s.altitude;
-    return double(s.viewZenithAngle) * s.dotViewSun * s.sunZenithAngle * layers;
+    return double(s.viewZenithAngle) * s.dotViewSun * s.sunZenithAngle * layersOf(s, options);
+}
+
+/// Of the table of direct sunlight, as solve() makes it.
+physics::SunTable::Cost sunlightOf(const physics::Medium& medium, const Options& options, const Needs& needs)
+{
+    const auto settings = qualityFor(options.quality, medium, orderTolerance(options)).moments;
+    const auto optics = physics::makeOptics(medium, settings.degree, settings.truncatePeaks && needs.severalOrders);
+    return physics::SunTable::costOf(physics::Profile(medium), optics, medium.sunAngularRadius);
+}
+
+/// Of densities and phase functions.
+double bytesOf(const physics::Medium& medium)
+{
+    double values = 0;
+    for (const auto& species : medium.species)
+        values += double(species.numberDensity.size()) + double(species.phaseFunction.size());
+    return values * sizeof(double);
 }
 
 /// 0: all
@@ -85,7 +107,7 @@ Work workOf(const atmo::Description& d, const Options& options, const Needs& nee
     const double sets = (d.wavelengths.count + 3) / 4, quality = relativeWork(options.quality);
     const double events = d.allScatteringOrders ? 8 : std::max(1, d.scatteringOrders - 1);
     w.medium = 0.05;
-    w.sunlight = 0.15;
+    w.sunlight = medium ? sunlightOf(*medium, options, needs).seconds / 2 : 0.15;
     if (needs.field)
         w.moments = field ? field->seconds : (0.1 + 0.03 * sets * events) * quality;
     if (needs.transmittance)
@@ -116,10 +138,19 @@ std::vector<PlanItem> plan(const atmo::Description& d, const Options& options, c
     const double sets = (d.wavelengths.count + 3) / 4, points = texels(d.scatteringSize, options);
     const double bytes = options.texturePrecisionBits <= 11 ? 2 : 4, compressed = 0.7;
     const auto size = [](double value) { return static_cast<std::size_t>(value); };
-    const auto memory = [](double value) { return static_cast<std::size_t>(process + value); };
-    const double layer = points / std::max(1, d.scatteringSize.altitude) * 16;
+    const auto sunlight = medium ? sunlightOf(*medium, options, needs) : physics::SunTable::Cost{8e5, 8e5, 0};
+    // Medium and sunlight stay, and are copied to the GPU for every stage.
+    const double held = 2 * (sunlight.bytes + (medium ? bytesOf(*medium) : 0));
+    const auto memory = [held](double value) { return static_cast<std::size_t>(process + held + value); };
+    const double layer = points / std::max(1., layersOf(d.scatteringSize, options)) * 16;
+    // Results of as many views as --max-memory allows, and a layer of all, in twos while it is written.
+    const auto baked = [&](double tables, double sheets) {
+        const double results = tables * layer * sheets, bound = double(resultBytes(options));
+        return (bound > 0 ? std::min(bound, results) : results) + results + 2 * layer * sheets;
+    };
     std::vector<PlanItem> items;
-    items.push_back({"medium", true, "densities and phase functions as tables", memory(4e6), size(3e5), work.medium + work.sunlight});
+    items.push_back({"medium", true, "densities and phase functions as tables, sunlight",
+                     memory(4e6 + std::max(0., sunlight.peakBytes - 2 * sunlight.bytes)), size(3e5), work.medium + work.sunlight});
     if (needs.field) {
         const FieldWork field = known.value_or(FieldWork{work.moments, 8e6 * sets, 1.2e5 * sets});
         items.push_back(
@@ -140,13 +171,13 @@ std::vector<PlanItem> plan(const atmo::Description& d, const Options& options, c
             }
             const bool luminance = !options.radiance && s.phaseFunctionType != atmo::PhaseFunctionType::General;
             items.push_back({"single-scattering/" + s.name, true, luminance ? "as XYZ and scotopic luminance" : "as spectral radiance",
-                             memory(20e6 + 5 * layer * double(d.scatterers.size()) * (luminance ? 1 : sets)),
+                             memory(30e6 + baked(double(d.scatterers.size()), luminance ? 1 : sets)),
                              size(points * bytes * compressed * (luminance ? 4 : d.wavelengths.count)),
                              work.single / double(d.scatterers.size())});
         }
     if (needs.multiple)
         items.push_back({"multiple-scattering", true, options.radiance ? "as spectral radiance" : "as XYZ and scotopic luminance",
-                         memory(35e6 + 5 * layer * (options.radiance ? sets : 1)),
+                         memory(35e6 + baked(1, options.radiance ? sets : 1)),
                          size(points * bytes * compressed * (options.radiance ? d.wavelengths.count : 4)), work.multiple});
     if (needs.eclipsed) {
         const auto s = eclipseTableSize(d);
@@ -168,6 +199,17 @@ std::vector<PlanItem> plan(const atmo::Description& d, const Options& options, c
     for (const auto& s : needs.skipped)
         items.push_back({s.what, false, s.why, 0, 0, 0});
     return items;
+}
+
+std::optional<std::string> beyondMemory(const std::vector<PlanItem>& plan, const Options& options)
+{
+    const auto most =
+        std::max_element(plan.begin(), plan.end(), [](const auto& a, const auto& b) { return a.memoryBytes < b.memoryBytes; });
+    if (options.maxMemoryBytes == 0 || most == plan.end() || most->memoryBytes <= options.maxMemoryBytes)
+        return std::nullopt;
+    const auto megabytes = [](std::size_t bytes) { return std::to_string((bytes + 500000) / 1000000) + " MB"; };
+    return "--max-memory: " + megabytes(options.maxMemoryBytes) + " won't be enough; however the work is split, about " +
+           megabytes(most->memoryBytes) + " are needed for: " + most->what + ".";
 }
 
 std::size_t resultBytes(const Options& options)

@@ -91,6 +91,8 @@ struct PlanItem {
 /// What solve() would do with the same arguments. A quality that is to be picked must be settled() before.
 ///   medium  from evaluateMedium(); without it, where there is no OpenGL, the moments' time and size are those of the sample Earth
 std::vector<PlanItem> plan(const atmo::Description& description, const Options& options, const physics::Medium* medium = nullptr);
+/// A sentence where what can't be split takes more than --max-memory.
+std::optional<std::string> beyondMemory(const std::vector<PlanItem>& plan, const Options& options);
 
 /// Computes the model and puts it into `outDir` in one step at the end: whatever happens before, an old model stays whole.
 ///   throws  Cancelled, AtmoError (the GLSL blocks), GlError, NumericsError, FileError

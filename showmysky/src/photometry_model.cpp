@@ -18,7 +18,7 @@ using sky::base::pi;
 
 /// Of the brightest field, that may be missing where there is no light: the degrees of a phase function cut short go below zero opposite to sharp
 /// peaks. Of 27 generated scenes ten had such places, in the whole sky of 4e-4 of the brightest field at most, in multiple scattering alone of 6e-3;
-/// air as the Earth's, Mars', hazy or cloudy has none.
+/// air as the Earth's, hazy or cloudy has none.
 constexpr double mostMissing = 0.1;
 
 /// PhotometryModel::brightest; where there are no moments as if all sunlight came from everywhere.

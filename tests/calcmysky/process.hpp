@@ -11,6 +11,7 @@ namespace sky::test {
 struct Outcome {
     int exitCode = -1; ///< -1 where a signal killed it
     std::string output, error;
+    std::size_t peakBytes = 0; ///< most memory that it held at a time
 };
 
 struct Run {

@@ -5,6 +5,7 @@
 #include <csignal>
 #include <fstream>
 #include <map>
+#include <regex>
 
 #include <catch2/catch.hpp>
 
@@ -173,4 +174,45 @@ TEST_CASE_METHOD(Program, "the program runs from wherever it is copied to", "[gl
         return;
     moved.arguments = {(directory.path() / "moved").string(), earth, "--validate"};
     CHECK(run(moved).exitCode == 0);
+}
+
+TEST_CASE_METHOD(Program, "a bound of memory holds at the peak of a run, and what can't be split is told", "[gl]")
+{
+    if (!hasOpenGl())
+        return;
+    // One layer of many views in two tables: 67 MB of results, that may be gathered a part at a time.
+    std::string text = contentOf(std::string(SKY_SOURCE_DIR) + "/bench/earth-small-4-wavelengths.atmo");
+    for (const auto& [key, size] : {std::pair{"VZA", "1024"}, {"dot(view,sun)", "64"}, {"SZA", "32"}}) {
+        const std::string line = std::string("\nscattering texture size for ") + key + ": ";
+        const std::size_t value = text.find(line) + line.size();
+        text.replace(value, text.find('\n', value) - value, size);
+    }
+    directory.file("views.atmo", text);
+    const auto taken = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments{"views.atmo", "--out-dir", "model", "--only",      "single",
+                                           "--radiance", "--quality", "draft", "--altitudes", "0..0"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        Run run;
+        run.environment = {"LP_NUM_THREADS=2"}; // each takes some
+        const Outcome outcome = calcmysky(arguments, run);
+        INFO(outcome.output << outcome.error);
+        REQUIRE(outcome.exitCode == 0);
+        return outcome;
+    };
+    constexpr std::size_t bound = std::size_t(300) << 20; // between what is needed and what would be taken
+    const Outcome whole = taken({}), split = taken({"--max-memory", "300M"});
+    CHECK(whole.peakBytes > bound);
+    CHECK(split.peakBytes <= bound);
+    CHECK_THAT(split.error, !Contains("--max-memory"));
+    const Outcome plan = taken({"--max-memory", "140M", "--dry-run"});
+    CHECK_THAT(plan.error, Contains("--max-memory: 147 MB won't be enough") && Contains("are needed for: single-scattering/"));
+    for (const auto& [options, run] :
+         {std::pair{std::vector<std::string>{"--dry-run"}, &whole}, {{"--dry-run", "--max-memory", "300M"}, &split}}) {
+        const std::string told = taken(options).output;
+        std::smatch total;
+        REQUIRE(std::regex_search(told, total, std::regex("(\\d+) MB +\\d+ MB  memory: the largest stage")));
+        const double ratio = 1e6 * std::stod(total[1]) / double(run->peakBytes);
+        INFO(told << "taken " << run->peakBytes);
+        CHECK((ratio > 0.67 && ratio < 1.5));
+    }
 }
