@@ -115,3 +115,23 @@ TEST_CASE(
         }
     }
 }
+
+TEST_CASE("peaks of sunlight: what a table takes is known before it is made")
+{
+    Medium thrown = sky::test::flatShell(), kept = thrown;
+    kept.species[0].phaseFunction = sky::test::layer(1, 1, 0, sky::test::isotropicPhase).species[0].phaseFunction;
+    for (const Medium& medium : {thrown, kept}) {
+        const Profile profile(medium);
+        const Optics optics = makeOptics(medium, 14, true);
+        const auto cost = SunTable::costOf(profile, optics, medium.sunAngularRadius, 20, 40);
+        const SunTable sun(profile, optics, medium.sunAngularRadius, 20, 40);
+        CHECK(cost.bytes == double(sun.opticalDepths().size() * sizeof(double)));
+        if (PeakSunlight::matters(profile, optics))
+            CHECK((cost.peakBytes > 2 * cost.bytes && cost.peakBytes <= 3 * cost.bytes));
+        else
+            CHECK(cost.peakBytes == cost.bytes);
+        CHECK(cost.seconds > 0);
+    }
+    CHECK(PeakSunlight::matters(Profile(thrown), makeOptics(thrown, 14, true)));
+    CHECK_FALSE(PeakSunlight::matters(Profile(kept), makeOptics(kept, 14, true)));
+}
