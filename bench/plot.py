@@ -124,21 +124,39 @@ def plot_textures(directory):
 
 
 def slope(points):
-    """Exponent of a power law between the two largest amounts of work: what counts when there is much."""
-    (x0, y0), (x1, y1) = points[-2:]
-    return math.log(y1 / y0) / math.log(x1 / x0)
+    """Exponent of the power law that fits best, by least squares of the logarithms."""
+    x, y = ([math.log(value) for value in values] for values in zip(*points))
+    middle, height = sum(x) / len(x), sum(y) / len(y)
+    return sum((a - middle) * (b - height) for a, b in zip(x, y)) / sum((a - middle) ** 2 for a in x)
+
+
+def costs(directory):
+    """Work and processor time, by what was varied: of the moments, then of the baked tables."""
+    rows = read(directory / "cost.csv")
+    moments = {name: [(float(r["work"]), float(r["processor_s"])) for r in rows if r["axis"] == name] for name in dict.fromkeys(r["axis"] for r in rows)}
+    texels = [(math.prod(int(row[axis]) for axis in ("view angles", "azimuths", "suns", "altitudes")), float(row["processor_s"]))
+              for row in read(directory / "textures.csv")]
+    return moments, sorted(texels)
 
 
 def plot_cost(directory):
-    rows = read(directory / "cost.csv")
-    figure, axis = plt.subplots(figsize=(7, 4.5))
-    for name in dict.fromkeys(row["axis"] for row in rows):
-        points = [(float(r["work"]), float(r["processor_s"])) for r in rows if r["axis"] == name]
-        axis.plot(*zip(*[(x / points[0][0], y) for x, y in points]), marker="o", label=f"{name}: exponent {slope(points):.2f}")
-        print(f"{name:12} exponent {slope(points):5.2f}   " + ", ".join(f"{x:g}: {y:.2f} s" for x, y in points))
-    axis.set(xscale="log", yscale="log", xlabel="work, relative to the least", ylabel="processor time of the moments, s")
-    axis.grid(True, which="both", alpha=0.2)
-    axis.legend()
+    moments, texels = costs(directory)
+    figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.5))
+    for name, points in moments.items():
+        last = slope(points[-2:]) # what counts when there is much of it
+        left.plot(*zip(*[(x / points[0][0], y) for x, y in points]), marker="o", label=f"{name}: exponent {slope(points):.2f}, at the end {last:.2f}")
+        print(f"{name:12} exponent {slope(points):5.2f}, at the end {last:5.2f}   " + ", ".join(f"{x:g}: {y:.2f} s" for x, y in points))
+    left.set(xlabel="work, relative to the least", ylabel="processor time of the moments, s")
+    right.plot(*zip(*texels), ".")
+    ends = [texels[0][0], texels[-1][0]]
+    exponent, level = slope(texels), sum(math.log(y) - slope(texels) * math.log(x) for x, y in texels) / len(texels)
+    right.plot(ends, [math.exp(level) * x**exponent for x in ends], color="0.6", label=f"exponent {exponent:.2f}")
+    print(f"{'texels':12} exponent {exponent:5.2f}   " + ", ".join(f"{x:g}: {y:.2f} s" for x, y in texels))
+    right.set(xlabel="texels of each table of scattering", ylabel="processor time of the tables, s")
+    for axis in (left, right):
+        axis.set(xscale="log", yscale="log")
+        axis.grid(True, which="both", alpha=0.2)
+        axis.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncol=2, fontsize=8, frameon=False)
     figure.tight_layout()
     save(figure, directory, "cost")
 
