@@ -125,8 +125,9 @@ void solve(const atmo::Description& description, const Options& asked, gl::Headl
     std::optional<FieldWork> fieldWork;
     if (needs.field)
         fieldWork = fieldWorkOf(medium, options, description.allScatteringOrders ? 0 : description.scatteringOrders);
-    if (const auto sentence = beyondMemory(plan(description, options, &medium), options))
-        progress.warning(*sentence);
+    if (options.maxMemoryBytes > 0)
+        if (const auto sentence = beyondMemory(plan(description, options, &medium), options))
+            progress.warning(*sentence);
     stages.reestimate(workOf(description, options, needs, fieldWork ? &*fieldWork : nullptr, &medium));
     model::Manifest manifest = describe(description, options, medium);
     manifest.lightPollutionRadiance = glow;
