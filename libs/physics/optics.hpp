@@ -27,9 +27,8 @@ struct Optics {
     std::vector<double> truncation; ///< [species][wavelengths], f, 0..1
     std::vector<double> blurred;    ///< [species][wavelengths], b, 0..1, or of a peak backward -1..0
     std::vector<double> moments;    ///< [species][0..degree][wavelengths], lambda_l, scaled and blurred
-    std::vector<double>
-        peakAngles; ///< [species][wavelengths][peakParts], rad: scattering angles of equal shares of a peak above straightPeak, or 0
-    std::vector<int> scatterers; ///< indices of the species that scatter at some wavelength
+    std::vector<double> peakAngles; ///< [species][wavelengths][peakParts], rad: of equal shares of a peak above straightPeak, or 0
+    std::vector<int> scatterers;    ///< indices of the species that scatter at some wavelength
 
     double moment(int s, int l, int w) const { return moments[(s * (degree + 1) + l) * wavelengths + w]; }
 };
